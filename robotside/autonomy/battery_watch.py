@@ -61,7 +61,7 @@ class BatteryWatch:
             low = Notice(Code.BATTERY_LOW, f"Battery low: {msg.percentage:.0%}.", charge=msg.percentage)
             self._say("battery", low, "warn")
         self.charge = self._situation.charge = msg.percentage
-        self._situation.battery_heard = now
+        self._situation.battery_heard, self._situation.last_power = now, msg.power_supply_status
         self._supply.on_battery(msg, now)
         self.update(now)
         self._use.note(self.charge, self._odometer(), charging=self._situation.charging)

@@ -77,7 +77,9 @@ class Situation:
     charging: bool = False
     """The battery takes charge, or is full at the charger."""
     power: int = 0
-    """As `power_supply_status` of `sensor_msgs/BatteryState`; 0 while unknown."""
+    """As `power_supply_status` of `sensor_msgs/BatteryState`; 0 while unknown, as of a battery that is silent."""
+    last_power: int = 0
+    """The same when the battery was last heard, however long ago that was."""
     battery_heard: float = -math.inf
     """When the battery was last heard [s], robot clock."""
     charge: float = math.nan

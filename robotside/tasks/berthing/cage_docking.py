@@ -11,7 +11,6 @@ from py_trees.common import Status
 
 from bridge.core.codes import Code
 from bridge.msgs.pilothouse_msgs import Manoeuvre, Place
-from bridge.msgs.sensor_msgs import BatteryState
 from robotside.core.notice import Notice
 from robotside.core.pose2 import Pose2
 from robotside.navigation.navigator import LegState, Navigator
@@ -20,6 +19,7 @@ from robotside.tasks.behaviours.situation import Situation
 from robotside.tasks.berthing.cage_line import CREEP, CageLine
 from robotside.tasks.berthing.cage_sight import FRESH, Look
 from robotside.tasks.berthing.cage_steering import SLIDE
+from robotside.tasks.berthing.dock_contact import DockContact
 
 __all__ = ["MAX_TRIES", "STANDOFFS", "CageDocking"]
 
@@ -77,9 +77,8 @@ LOST_TIMEOUT = 8.0
 APPROACH_TIMEOUT, ENTER_TIMEOUT = 120.0, 50.0
 """It comes onto the line, and up or in or back from there, within these times [s]."""
 
-CONTACT_TIMEOUT, DEAD_TIME, REST_TIMEOUT = 8.0, 3.0, 15.0
-"""At the coil, the battery tells within the first whether it takes charge; a coil without current for the second is dead; with charge
-it waits to lie still no longer than the third [s]."""
+CONTACT_TIMEOUT, REST_TIMEOUT = 8.0, 15.0
+"""At the coil, the battery tells within the first whether it takes charge; with charge it waits to lie still no longer than the second [s]."""
 
 MAX_GAP = 0.5
 """Left alone for longer, it may be elsewhere: it looks anew [s]."""
@@ -117,9 +116,10 @@ class CageDocking(Behaviour):
         self._cage, self._course, self._navigator, self._situation = cage, course, navigator, situation
         self._line = CageLine(cage, navigator, situation, look, front)
         self._sight = self._line.sight
+        self._contacts = DockContact(cage.name, situation, CONTACT_TIMEOUT)
         self._stage, self._since, self._ticked = _Stage.SWIM, 0.0, -math.inf
         self._tries = 0
-        self._dead = self._settled = math.inf
+        self._settled = math.inf
         self._steps: dict[_Stage, Callable[[], Status]] = {
             _Stage.SWIM: self._swim,
             _Stage.SEEK: self._seek,
@@ -158,7 +158,9 @@ class CageDocking(Behaviour):
 
     def _enter(self, stage: _Stage) -> None:
         self._stage, self._since = stage, self._situation.worked
-        self._dead = self._settled = math.inf
+        self._settled = math.inf
+        if stage is _Stage.CONTACT:
+            self._contacts.begin()
 
     @property
     def _spent(self) -> float:
@@ -260,7 +262,7 @@ class CageDocking(Behaviour):
     def _go_in(self) -> Status:
         self._line.look()
         _, gap = self._line.where()
-        if gap < TOUCH or (self._situation.touched and gap < ENTRANCE) or self._meets:
+        if gap < TOUCH or (self._situation.touched and gap < ENTRANCE) or self._contacts.meet:
             self._enter(_Stage.CONTACT)
             return Status.RUNNING
         if self._spent > ENTER_TIMEOUT:
@@ -270,28 +272,22 @@ class CageDocking(Behaviour):
         self._line.go(ahead, TURN_IN if gap > BRAKES else 0.0)
         return Status.RUNNING
 
-    @property
-    def _meets(self) -> bool:
-        """The coils meet, but there is no current."""
-        return self._situation.power == BatteryState.POWER_SUPPLY_STATUS_NOT_CHARGING
-
     def _contact(self) -> Status:
-        now, name = self._situation, self._cage.name
-        self._tell(f"Waiting for the charge at {name}.", touches=True)
+        now = self._situation
+        self._tell(f"Waiting for the charge at {self._cage.name}.", touches=True)
         self._line.press()
         if now.charging:
             still = math.hypot(*self._line.moving()) < AT_REST
             self._settled = min(self._settled, now.worked) if still else math.inf
             rests = now.worked - self._settled > SETTLED_TIME and self._spent > LEAN_TIME
             return self._done() if rests or self._spent > REST_TIMEOUT else Status.RUNNING
-        self._dead = min(self._dead, now.worked) if self._meets else math.inf
-        if now.worked - self._dead > DEAD_TIME:
-            said = f"{name} gives no charge: the contacts meet, but no current flows; the robot stays there."
-            self._navigator.reason = Notice(Code.DOCK_DEAD, said, place=name)
-            return Status.FAILURE
-        if self._spent > CONTACT_TIMEOUT and not self._meets:
-            return self._again(f"{name} was reached by its tag, but its contacts did not meet.")
-        return Status.RUNNING
+        why = self._contacts.outcome("by its tag")
+        if why is None:
+            return Status.RUNNING
+        if why.code == Code.DOCK_MISSED:
+            return self._again(str(why))
+        self._navigator.reason = why
+        return Status.FAILURE
 
     def _again(self, why: str) -> Status:
         """Go back and try once more; after the last time `why` is the reason."""

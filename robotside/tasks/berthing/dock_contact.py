@@ -22,11 +22,11 @@ DEAD_TIME = 3.0
 
 
 class DockContact:
-    """Of a robot whose front touches the dock of that `name`."""
+    """Of a robot that touches the dock of that `name`."""
 
-    def __init__(self, name: str, situation: Situation) -> None:
-        """`situation` has what the battery says."""
-        self._name, self._situation = name, situation
+    def __init__(self, name: str, situation: Situation, within: float = CONTACT_TIMEOUT) -> None:
+        """`situation` has what the battery says; in contact it tells `within` so long whether it takes charge [s]."""
+        self._name, self._situation, self._within = name, situation, within
         self._since, self._dead = 0.0, math.inf
 
     def begin(self) -> None:
@@ -50,6 +50,6 @@ class DockContact:
         heard = now.now - now.battery_heard
         if heard > CONTACT_TIMEOUT:
             return dock_outcomes.silent(self._name, heard) if spent > SILENCE_TIMEOUT else None
-        if spent > CONTACT_TIMEOUT and not self.meet:
+        if spent > self._within and not self.meet:
             return dock_outcomes.no_contact(self._name, by)
         return None

@@ -34,14 +34,14 @@ def given_up(why: Notice, tries: int) -> Notice:
 
 def dead(name: str) -> Notice:
     """The charger gives nothing."""
-    said = f"{name} gives no charge: the contacts meet, but no current flows; the robot stands there."
+    said = f"{name} gives no charge: the contacts meet, but no current flows; the robot stays there."
     return Notice(Code.DOCK_DEAD, said, place=name)
 
 
 def silent(name: str, heard: float) -> Notice:
     """In contact, the battery was last heard so long ago [s]; infinite for never."""
     since = f"has said nothing for {heard:.0f} s" if heard < math.inf else "says nothing"
-    said = f"{name} was reached, but the battery {since}, so nobody knows whether it charges; the robot stands there."
+    said = f"{name} was reached, but the battery {since}, so nobody knows whether it charges; the robot stays there."
     return Notice(Code.CHARGE_UNKNOWN, said, place=name, seconds=heard)
 
 

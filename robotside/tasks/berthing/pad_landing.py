@@ -12,12 +12,12 @@ from py_trees.common import Status
 from bridge.core.codes import Code
 from bridge.msgs.geometry_msgs import Twist, Vector3
 from bridge.msgs.pilothouse_msgs import Manoeuvre, Place
-from bridge.msgs.sensor_msgs import BatteryState
 from robotside.core.notice import Notice, Problem
 from robotside.core.pose2 import Pose2
 from robotside.navigation.navigator import Goal, LegState, Navigator
 from robotside.tasks.behaviours.course import Course
 from robotside.tasks.behaviours.situation import Situation
+from robotside.tasks.berthing.dock_contact import DockContact
 from robotside.tasks.berthing.pad_sight import FRESH, LOST_TIMEOUT, Find, PadSight
 
 __all__ = ["MAX_TRIES", "SEARCH_HEIGHT", "PadLanding", "first_goal"]
@@ -57,9 +57,6 @@ LIFT_GAIN, MAX_LIFT, MAX_SINK = 0.8, 0.4, 0.25
 
 SINKING_TIMEOUT, LANDING_TIMEOUT, RISE_TIMEOUT = 60.0, 15.0, 20.0
 """From the search height down to the last step, from there to the pad, and up again it takes no longer [s]."""
-
-CONTACT_TIMEOUT, DEAD_TIME = 6.0, 3.0
-"""On the pad, the battery tells within the first whether it takes charge; contact without current for the second is a dead pad [s]."""
 
 MAX_GAP = 0.5
 """Left alone for longer, it may be elsewhere: it looks anew [s]."""
@@ -140,13 +137,14 @@ class PadLanding(Behaviour):
         super().__init__("land on the pad")
         self._pad, self._course, self._navigator, self._situation = pad, course, navigator, situation
         self._sight, self._fault = PadSight(find, situation), fault
+        self._contacts = DockContact(pad.name, situation)
         self._stands_out = False
         """The pad is a thing on the map."""
         self._points: list[tuple[float, float]] = []
         """To look from yet, in `map` [m]."""
         self._stage, self._since, self._ticked = _Stage.FLY, 0.0, -math.inf
         self._tries = self._step = 0
-        self._dead = self._settled = math.inf
+        self._settled = math.inf
         self._up_to = math.nan
         self._steps: dict[_Stage, Callable[[], Status]] = {
             _Stage.FLY: self._fly,
@@ -188,8 +186,10 @@ class PadLanding(Behaviour):
 
     def _enter(self, stage: _Stage) -> None:
         self._stage, self._since = stage, self._situation.worked
-        self._dead = self._settled = math.inf
+        self._settled = math.inf
         self._up_to = math.nan
+        if stage is _Stage.CONTACT:
+            self._contacts.begin()
 
     @property
     def _spent(self) -> float:
@@ -318,23 +318,15 @@ class PadLanding(Behaviour):
         self._navigator.command(Manoeuvre(kind="land"))
         return Status.RUNNING
 
-    @property
-    def _meets(self) -> bool:
-        """The contacts meet, but there is no current."""
-        return self._situation.power == BatteryState.POWER_SUPPLY_STATUS_NOT_CHARGING
-
     def _contact(self) -> Status:
-        now, name = self._situation, self._pad.name
-        self._tell(f"Waiting for the charge at {name}.", touches=True)
-        self._dead = min(self._dead, now.worked) if self._meets else math.inf
-        if now.worked - self._dead > DEAD_TIME:
-            said = f"{name} gives no charge: the contacts meet, but no current flows; the robot stands there."
-            self._navigator.reason = Notice(Code.DOCK_DEAD, said, place=name)
-            return Status.FAILURE
-        if self._spent > CONTACT_TIMEOUT and not self._meets:
-            said = f"{name} was reached by its tag, but its contacts did not meet."
-            return self._again(Notice(Code.DOCK_MISSED, said, place=name))
-        return Status.RUNNING
+        self._tell(f"Waiting for the charge at {self._pad.name}.", touches=True)
+        why = self._contacts.outcome("by its tag")
+        if why is None:
+            return Status.RUNNING
+        if why.code == Code.DOCK_MISSED:
+            return self._again(why)
+        self._navigator.reason = why
+        return Status.FAILURE
 
     def _again(self, why: Notice) -> Status:
         """Rise and try once more; after the last time `why` is the reason."""

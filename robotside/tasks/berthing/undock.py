@@ -95,9 +95,9 @@ class Undock(Behaviour):
     _last = 0.0
 
     def _within(self) -> str:
-        """The dock whose contacts it touches; empty for none."""
+        """The dock whose contacts it touches, or touched when its battery was last heard; empty for none."""
         now = self._situation
-        if now.power not in _IN_CONTACT:
+        if now.last_power not in _IN_CONTACT:
             return ""
         near = [dock for dock in self._docks() if now.pose.distance(dock.x, dock.y) <= self._near]
         return min(near, key=lambda dock: now.pose.distance(dock.x, dock.y)).name if near else ""

@@ -20,6 +20,7 @@ from bridge.msgs.pilothouse_msgs import (
     TaskProgress,
     Waypoint,
 )
+from robotside.autonomy.power_supply import POWER_TIMEOUT
 from robotside.core.config import ChargingSettings, Config
 from tests.fakes import FakeDock, FakeRobot
 from tests.robotside.scene import SQUARE, Scene
@@ -36,6 +37,12 @@ def scene_of(state: Path, config: Config = Config()) -> Scene:  # noqa: B008
         answer = made.ask("/places/set", SetPlaceRequest(place=place))
         assert answer.success, answer.message
     return made
+
+
+def begin(house: Scene, task: str, *places: str) -> None:
+    order = TaskOrder(task=task, places=list(places))
+    answer = house.ask("/task/start", StartTaskRequest(order=order))
+    assert answer.success, answer.message
 
 
 @pytest.fixture
@@ -288,3 +295,26 @@ def test_a_touch_after_docking_was_canceled_is_told(house: Scene) -> None:
     house.robot.more.append(("/bumper", Bumper(pressed=True, bearing=0.0)))
     house.run(0.3)
     assert house.events("contact") == ["The bumper touched something ahead."]
+
+
+def test_the_last_word_of_a_battery_that_fell_silent_is_no_charge(house: Scene) -> None:
+    begin(house, "dock")
+    assert house.run_task().state == "SUCCEEDED"
+    house.robot.silent.add("/battery_state")
+    begin(house, "go_to", "Lab")
+    assert house.run_task().state == "SUCCEEDED"
+    begin(house, "dock")
+    assert house.run_task().state == "FAILED"
+    assert house.robot.pose[0] == pytest.approx(DOCK.x, abs=0.1)
+    assert house.task.reason.startswith("Dock was reached, but the battery has said nothing for ")
+    assert house.task.reason.endswith(" s, so nobody knows whether it charges; the robot stays there.")
+
+
+def test_it_backs_out_of_its_dock_though_the_battery_fell_silent_there(house: Scene) -> None:
+    begin(house, "dock")
+    assert house.run_task().state == "SUCCEEDED"
+    house.robot.silent.add("/battery_state")
+    house.run(POWER_TIMEOUT + 2.0)
+    begin(house, "undock")
+    assert house.run_task().reason == "Out of Dock."
+    assert house.robot.pose[0] == pytest.approx(DOCK.x + 0.7, abs=0.1)

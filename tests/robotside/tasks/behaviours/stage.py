@@ -83,7 +83,7 @@ class Stage:
                 here.battery_heard = here.now
                 if self.robot.dock is None:
                     continue
-                here.power = msg.power_supply_status
+                here.power = here.last_power = msg.power_supply_status
                 here.charging = here.power in (1, 4)
             elif isinstance(msg, Bumper) and self.robot.dock is not None:
                 here.touched = msg.pressed

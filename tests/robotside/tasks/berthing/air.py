@@ -36,6 +36,8 @@ class Air:
         self.x = self.y = self.z = 0.0
         self.pad = (PAD.x + off[0], PAD.y + off[1])
         self.current, self.reach, self.hidden = current, 0.25, False
+        self.mute = False
+        """Its battery says nothing."""
         self.flight, self.reason, self.waits_for = "landed", "", ""
         self.landings: list[float] = []
         """How far from the middle of the pad it came down, each time [m]."""
@@ -145,8 +147,9 @@ class Air:
         here.below, here.flight = self.z, self.flight
         here.ground = GroundView(b"", here.now, here.odom, 0.0, 0.0, self.z)
         met = self.flight == "landed" and self.off < self.reach
-        here.power = (1 if self.current else 3) if met else 2
-        here.charging = here.power == 1
+        if not self.mute:
+            here.power = (1 if self.current else 3) if met else 2
+            here.charging, here.battery_heard = here.power == 1, here.now
 
     def _go(self) -> None:
         if self.flight == "taking_off":

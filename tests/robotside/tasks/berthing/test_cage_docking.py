@@ -86,6 +86,16 @@ def test_a_dead_cage_is_told_at_the_first_try() -> None:
     assert len(on.entered) == 1
 
 
+def test_a_silent_battery_in_the_cage_is_told_as_that_and_not_tried_again() -> None:
+    on = Water()
+    on.mute = True
+    assert on.run(on.make(), 400.0) is Status.FAILURE
+    assert on.reason == (
+        "Cage was reached, but the battery says nothing, so nobody knows whether it charges; the robot stays there."
+    )
+    assert len(on.entered) == 1
+
+
 def test_moved_aside_in_a_pause_it_goes_before_the_cage_again() -> None:
     on = Water()
     tree = on.make()

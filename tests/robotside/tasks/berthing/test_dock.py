@@ -134,7 +134,7 @@ def test_a_dead_charger_is_told_at_the_first_contact() -> None:
     on = stage(gives=BatteryState.POWER_SUPPLY_STATUS_NOT_CHARGING)
     assert finish(on, make(on)) is Status.FAILURE
     assert on.navigator.reason == (
-        "Dock gives no charge: the contacts meet, but no current flows; the robot stands there."
+        "Dock gives no charge: the contacts meet, but no current flows; the robot stays there."
     )
 
 
@@ -143,7 +143,7 @@ def test_a_silent_battery_in_contact_is_told_as_that_and_not_tried_again() -> No
     on.mute = True
     assert finish(on, make(on), 120.0) is Status.FAILURE
     assert on.navigator.reason == (
-        "Dock was reached, but the battery says nothing, so nobody knows whether it charges; the robot stands there."
+        "Dock was reached, but the battery says nothing, so nobody knows whether it charges; the robot stays there."
     )
     assert on.robot.pose[:2] == pytest.approx((4.0, 1.0), abs=0.05)
 

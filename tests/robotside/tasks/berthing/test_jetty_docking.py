@@ -98,7 +98,7 @@ def test_a_dead_jetty_is_told_at_the_first_try() -> None:
     on = Harbour(gives=3)
     assert on.run(on.make(), 400.0) is Status.FAILURE
     assert (
-        on.reason == "Jetty gives no charge: the contacts meet, but no current flows; the robot stands there."
+        on.reason == "Jetty gives no charge: the contacts meet, but no current flows; the robot stays there."
     )
     assert on.at_rest
 

@@ -67,10 +67,19 @@ def test_contacts_that_do_not_meet_are_tried_three_times_from_above() -> None:
 def test_a_dead_pad_is_told_at_the_first_landing() -> None:
     on = Air(current=False)
     assert on.run(on.make(), 200.0) is Status.FAILURE
-    assert (
-        on.reason == "Pad gives no charge: the contacts meet, but no current flows; the robot stands there."
+    assert on.reason == "Pad gives no charge: the contacts meet, but no current flows; the robot stays there."
+    assert len(on.landings) == 1
+
+
+def test_a_silent_battery_on_the_pad_is_told_as_that_and_not_tried_again() -> None:
+    on = Air()
+    on.mute = True
+    assert on.run(on.make(), 200.0) is Status.FAILURE
+    assert on.reason == (
+        "Pad was reached, but the battery says nothing, so nobody knows whether it charges; the robot stays there."
     )
     assert len(on.landings) == 1
+    assert on.flight == "landed"
 
 
 def test_moved_aside_in_a_pause_while_it_lands_it_does_not_land_there() -> None:

@@ -23,7 +23,7 @@ def stage(*, gives: int = 1) -> Stage:
     dock = FakeDock(4.18, 1.0, 0.0, gives=gives)
     on = Stage(robot=FakeRobot(start=(4.0, 1.0, 0.0), beams=360, dock=dock))
     on.tick(make(on), 0.0)
-    on.situation.power = gives
+    on.situation.last_power = gives
     on._hear()
     return on
 
@@ -59,7 +59,7 @@ def test_only_where_the_dock_guides_it_a_touch_is_meant(guided: float) -> None:
 
 def test_a_robot_in_no_dock_does_not_move() -> None:
     on = stage()
-    on.situation.power = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
+    on.situation.last_power = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
     on.robot.dock = None
     assert on.tick(make(on)) is Status.SUCCESS
     assert on.robot.pose == (4.0, 1.0, 0.0)
@@ -68,7 +68,7 @@ def test_a_robot_in_no_dock_does_not_move() -> None:
 def test_a_robot_that_charges_by_a_cable_elsewhere_does_not_move() -> None:
     on = stage()
     on.robot.pose = (-2.0, 1.0, 0.0)
-    on.robot.dock, on.situation.power = None, 1
+    on.robot.dock, on.situation.last_power = None, 1
     assert on.tick(make(on)) is Status.SUCCESS
     assert on.robot.pose == (-2.0, 1.0, 0.0)
 

@@ -53,6 +53,8 @@ class Water:
         self.velocity = np.zeros(2)
         self.stream, self.drift = np.array(stream), np.array(drift)
         self.current, self.hidden, self.meets = current, False, True
+        self.mute = False
+        """Its battery says nothing."""
         self.reason, self.waits_for = "", ""
         self.hits = 0
         """Times that its body met the cage's walls."""
@@ -163,8 +165,9 @@ class Water:
         met = (
             -0.15 <= at.x <= 0.06 and abs(nose) < WITHIN and abs(self.z - self.depth) < WITHIN and self.meets
         )
-        now.power = (1 if self.current else 3) if met else 2
-        now.charging = now.power == 1
+        if not self.mute:
+            now.power = (1 if self.current else 3) if met else 2
+            now.charging, now.battery_heard = now.power == 1, now.now
 
     def _go(self) -> None:
         """Its axis takes on the speed that is told, its side only loses what drag takes; walls stop it."""
