@@ -31,7 +31,7 @@ CLASSES = DETECTED_CLASSES
 SEARCHED = (320, 240)
 """Columns and rows that are searched; larger pictures are made smaller first."""
 
-SURE_OUTPUTS = (0.46, 0.45, 0.41, 0.53)
+SURE_OUTPUTS = (0.33, 0.42, 0.44, 0.44)
 """By class, the network's output at which a thing is as sure as `SURE_SCORE`: by day 95 % of what is told is right, on scenes that are not judged by."""
 
 LEAST_SCORE = 0.5
