@@ -29,7 +29,7 @@ RUNNING_PERIOD = 0.15
 """And so often, as long as there is any [s]."""
 SOUND_TIME = 0.4
 """There is, where it was louder than nobody's voice within so long [s]."""
-SURE, LIKELY = 2.0, -1.0
+SURE, LIKELY = 4.0, 1.0
 """STOP is where the network is as sure as that by itself, or where it is as sure as this and its sounds are there too [log odds]."""
 SEARCH_WINDOW = 1.0
 """What is looked at: the longest STOP that people say, with a little before [s]."""
