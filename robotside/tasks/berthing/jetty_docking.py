@@ -21,7 +21,7 @@ from robotside.tasks.berthing.cage_sight import FRESH, Look
 from robotside.tasks.berthing.dock_contact import DockContact
 from robotside.tasks.berthing.jetty_line import JettyLine
 
-__all__ = ["MAX_TRIES", "NEAR", "JettyDocking"]
+__all__ = ["GATE", "MAX_ASKEW", "MAX_TRIES", "NEAR", "JettyDocking"]
 
 MAX_TRIES = 4
 """Approaches before it gives up."""

@@ -8,9 +8,12 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from bridge.core.codes import Code
+from bridge.msgs.geometry_msgs import Twist
 from robotside.core.pose2 import Pose2
 from robotside.mapping.laser_points import LaserProjection
 from robotside.mapping.occupancy_grid import Grid
+from robotside.navigation.arrival_check import SURE_TIMEOUT
 from robotside.navigation.navigator import Goal, LegState, Navigator
 from tests.fakes import Box, FakeRobot, Pillar
 
@@ -153,6 +156,16 @@ def test_with_an_unsure_position_it_creeps() -> None:
     run.go(Goal("Point 1", 6.0, 0.0), limit=5.0)
     speeds = [twist.linear.x for twist in run.robot.commands if twist is not None]
     assert max(speeds) <= 0.15
+
+
+def test_at_a_goal_that_is_not_sure_it_stands_until_it_gives_up() -> None:
+    run = trip()
+    run.navigator.sure = False
+    goal = Goal("Point 1", -3.0, 0.0)
+    assert run.go(goal) is LegState.BLOCKED
+    assert run.navigator.reason.code == Code.TASK_PLACE_UNSURE
+    waited = run.robot.commands[-round(SURE_TIMEOUT / PERIOD) :]
+    assert all(twist is None or twist == Twist() for twist in waited)
 
 
 def test_a_leg_goes_on_after_a_rest_from_wherever_the_robot_is_then() -> None:

@@ -9,7 +9,7 @@ from py_trees.common import Status
 
 from bridge.msgs.pilothouse_msgs import Manoeuvre
 from robotside.core.pose2 import Pose2
-from robotside.tasks.berthing.jetty_docking import MAX_TRIES
+from robotside.tasks.berthing.jetty_docking import GATE, MAX_ASKEW, MAX_TRIES
 from tests.robotside.tasks.berthing.harbour import FRONT, Harbour
 
 
@@ -69,6 +69,22 @@ def test_who_is_off_the_line_at_the_fingers_goes_back_before_it_touches_them() -
     on.until(tree, "Going back")
     assert not on.touches
     assert on.run(tree, 300.0) is Status.SUCCESS
+
+
+def test_who_is_askew_at_the_fingers_goes_back_though_it_is_on_the_line() -> None:
+    for askew, goes_back in ((MAX_ASKEW + 0.03, True), (MAX_ASKEW - 0.05, False)):
+        on = Harbour()
+        tree = on.make()
+        on.until(tree, "Coming up")
+        while on.within.x < -GATE - 0.01:
+            assert on.tick(tree) is Status.RUNNING
+        on.here = on.believed = on.jetty.then(Pose2(-GATE + 0.01, 0.0, askew))
+        on.turning = 0.0
+        told = set[str]()
+        for _ in range(5):
+            assert on.tick(tree) is Status.RUNNING
+            told.add(on.situation.doing.text[:10])
+        assert ("Going back" in told) is goes_back
 
 
 def test_who_sees_the_tag_no_more_before_the_fingers_goes_back() -> None:
