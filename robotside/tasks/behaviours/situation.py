@@ -24,7 +24,7 @@ class Doing:
     """The present action of a task."""
 
     phase: str = ""
-    """driving, waiting, dwelling, holding, turning, docking, undocking, charging, circling, taking off, landing, surfacing or unsure;
+    """planning, driving, waiting, dwelling, holding, turning, docking, undocking, charging, circling, taking off, landing, surfacing or unsure;
     empty when it does none of them."""
     text: str = ""
     """One sentence for the operator: what it does and why; empty leaves it to the task."""
