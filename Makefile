@@ -47,8 +47,9 @@ mutate: setup-test ## put faults into the code, each of which a test must notice
 bench: setup-test ## run all benches: out/bench/*.json and a table
 	@$(PYTHON) -m bench
 
-android-check: setup ## check the APK as far as possible without its toolchain
-	@$(PYTHON) scripts/android_check.py
+android-check: setup-test ## check the APK as far as possible without Google's toolchain
+	@bash scripts/setup.sh android
+	@$(PYTHON) -m scripts.android
 
 gallery: setup ## draw every widget in every state and theme: out/gallery/index.html
 	@$(PYTHON) -m widgets --out out/gallery

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what Pilothouse needs into .venv, in steps that each leave a stamp; a step whose stamp holds does nothing.
-#   scripts/setup.sh [voice] [video] [test] [clients]   app, robot side and simulator first of all; voice: speech; video: film
-#                                                       of the camera; test: what tests, benches and lint need; clients: the
-#                                                       JavaScript libraries of tests/clients
+#   scripts/setup.sh [voice] [video] [test] [clients] [android]   app, robot side and simulator first of all; voice: speech; video:
+#                                                       film of the camera; test: what tests, benches and lint need; clients: the
+#                                                       JavaScript libraries of tests/clients; android: what checks the APK
 # SETUP_LIMIT=SECONDS allows each download longer than 15 minutes, and npm longer than 3. One set-up works at a time.
 # Exit codes: 0 ready, 1 a fault, 2 something that the user has to do; each of them said in one sentence.
 set -euo pipefail
@@ -251,6 +251,21 @@ set_up_test() {
     bring Chromium 300 chromium chromium
 }
 
+# Into an environment of its own beside the rest: python-for-android wants an older Cython.
+set_up_android() {
+    local own=$venv/android code=0 log="$venv/setup-android.log" names
+    rm -rf "$own"
+    watched "making $own" "$log" "$bin" -m venv "$own" || code=$?
+    [ $code -eq 0 ] || give_up "$own" "$log" $code
+    names=$("$bin" -c 'import tomllib; print("\n".join(tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["android"]))')
+    mapfile -t names <<<"$names"
+    watched "python-for-android" "$log" "$own/bin/python" -m pip install --disable-pip-version-check --no-input \
+        --progress-bar off "${pip_patience[@]}" 'pip>=25.1' "${names[@]}" || code=$?
+    [ $code -eq 0 ] || give_up "python-for-android" "$log" $code
+    bring "Android's aapt" 120 aapt aapt android-framework-res
+    bring glslang 120 glslangValidator glslang-tools
+}
+
 # Brings a program that a few tests use, where that asks for no password.  Usage: bring NAME SECONDS "PROGRAM..." PACKAGE...
 bring() {
     local name=$1 limit=${SETUP_LIMIT:-$2} programs=$3
@@ -284,8 +299,8 @@ set_up_clients() {
 # nothing else can be installed before the first step made .venv
 for step in run "$@"; do
     case $step in
-        run | voice | video | test | clients) ;;
-        *) say "there is no step $step; there are run, voice, video, test and clients." >&2; exit 2 ;;
+        run | voice | video | test | clients | android) ;;
+        *) say "there is no step $step; there are run, voice, video, test, clients and android." >&2; exit 2 ;;
     esac
     if ! ready "$step"; then
         work_alone

@@ -226,7 +226,7 @@ def test_a_step_that_there_is_not_is_the_users_mistake(place):
     done = place.set_up("sounds")
     assert (done.returncode, done.stderr) == (
         2,
-        "setup: there is no step sounds; there are run, voice, video, test and clients.\n",
+        "setup: there is no step sounds; there are run, voice, video, test, clients and android.\n",
     )
 
 

@@ -1,8 +1,7 @@
-"""Checks of the Android package that need no toolchain; builds no package.
+"""What goes into the Android package: exactly the files that buildozer.spec selects, and requirements that keep their pins.
 
-It stages exactly the files that buildozer.spec selects, compiles them as the phone gets them (`-OO`: no asserts,
-no docstrings), imports every module of that tree in a process that has no robot side, no simulator and no desktop
-library, and checks the spec for the known traps of python-for-android.
+The files are compiled as the phone gets them (`-OO`: no asserts, no docstrings), and every module of that tree is imported in a process
+that has no robot side, no simulator and no desktop library.
 """
 
 from __future__ import annotations
@@ -10,16 +9,31 @@ from __future__ import annotations
 import ast
 import configparser
 import fnmatch
-import importlib.util
 import re
 import shutil
-import subprocess
 import sys
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-ROOT = Path(__file__).parents[1]
+from scripts.android.failure import Failed, run
+
+__all__ = [
+    "Spec",
+    "check_files",
+    "check_imports",
+    "check_options",
+    "check_requirements",
+    "compile_all",
+    "import_all",
+    "modules",
+    "read_spec",
+    "selected",
+    "stage",
+    "words",
+]
+
+Spec = configparser.SectionProxy
+"""What buildozer.spec says of the app."""
 SHIPPED = {"app", "widgets", "bridge", "main.py"}
 DESKTOP = ("bridge/generate/", "bridge/definitions/")
 """The parts of them that generate the rest and are not needed on the phone."""
@@ -100,11 +114,7 @@ os._exit(0)
 """
 
 
-class Failed(Exception):
-    """A check did not hold; its text is the sentence to print."""
-
-
-def read_spec(path: Path) -> configparser.SectionProxy:
+def read_spec(path: Path) -> Spec:
     """The `[app]` section of a buildozer.spec."""
     parser = configparser.ConfigParser(interpolation=None)
     parser.read(path)
@@ -113,12 +123,12 @@ def read_spec(path: Path) -> configparser.SectionProxy:
     return parser["app"]
 
 
-def words(spec: configparser.SectionProxy, key: str) -> list[str]:
+def words(spec: Spec, key: str) -> list[str]:
     """A comma separated value as a list; empty when the key is absent."""
     return [word.strip() for word in spec.get(key, "").split(",") if word.strip()]
 
 
-def selected(root: Path, spec: configparser.SectionProxy) -> Iterator[Path]:
+def selected(root: Path, spec: Spec) -> Iterator[Path]:
     """The files that buildozer 1.6.0 would copy, relative to `root`, by its own rules."""
     extensions = set(words(spec, "source.include_exts"))
     folders = tuple(f"{name.strip('/').lower()}/" for name in words(spec, "source.exclude_dirs"))
@@ -136,7 +146,7 @@ def selected(root: Path, spec: configparser.SectionProxy) -> Iterator[Path]:
         yield relative
 
 
-def check_files(root: Path, spec: configparser.SectionProxy) -> list[Path]:
+def check_files(root: Path, spec: Spec) -> list[Path]:
     """Only the handheld's parts are in; each of them is."""
     files = list(selected(root, spec))
     strangers = [str(path) for path in files if path.parts[0] not in SHIPPED]
@@ -158,7 +168,7 @@ def check_files(root: Path, spec: configparser.SectionProxy) -> list[Path]:
     return files
 
 
-def check_requirements(spec: configparser.SectionProxy) -> list[str]:
+def check_requirements(spec: Spec) -> list[str]:
     """Each requirement is spelled so that python-for-android keeps its pin."""
     found = words(spec, "requirements")
     for requirement in found:
@@ -178,7 +188,7 @@ def check_requirements(spec: configparser.SectionProxy) -> list[str]:
     return found
 
 
-def check_manifest(root: Path, spec: configparser.SectionProxy) -> None:
+def check_options(root: Path, spec: Spec) -> None:
     """The version is dotted integers, the XML snippets exist, and no option breaks the build."""
     text = (root / "pyproject.toml").read_text()
     version = re.search(spec["version.regex"], text)
@@ -194,20 +204,6 @@ def check_manifest(root: Path, spec: configparser.SectionProxy) -> None:
         named = spec[key].replace("%(source.dir)s", ".")
         if not (root / named).is_file():
             raise Failed(f"{key} names {named}, which is not there.")
-
-
-def check_voice(root: Path, spec: configparser.SectionProxy) -> None:
-    """What hears and talks on the phone is asked for: the microphone, and to see the services behind it (Android 11)."""
-    if "android.permission.RECORD_AUDIO" not in words(spec, "android.permissions"):
-        raise Failed(
-            "android.permissions lacks android.permission.RECORD_AUDIO: no spoken command would be heard."
-        )
-    manifest = (root / spec["android.extra_manifest_xml"]).read_text()
-    for service in ("android.speech.RecognitionService", "android.intent.action.TTS_SERVICE"):
-        if service not in manifest:
-            raise Failed(
-                f"the manifest does not ask for {service} in <queries>: Android 11 and later hide it."
-            )
 
 
 def third_party(files: list[Path], root: Path) -> set[str]:
@@ -226,7 +222,9 @@ def third_party(files: list[Path], root: Path) -> set[str]:
 
 def check_imports(files: list[Path], root: Path, requirements: list[str]) -> None:
     """Everything imported is asked for in the spec, comes with Kivy, or is Android's own."""
-    asked = {name.partition("==")[0].split(".")[0] for name in requirements}
+    names = [name.partition("==")[0] for name in requirements]
+    # a package may be spelled with an underscore where its own name has a dot
+    asked = {re.split(mark, name)[0] for name in names for mark in (r"\.", r"[._]")}
     strangers = third_party(files, root) - asked - {"jnius", "android"} - OPTIONAL
     if strangers:
         raise Failed(f"the handheld imports {', '.join(sorted(strangers))}, which the spec does not ask for.")
@@ -239,91 +237,20 @@ def stage(files: list[Path], root: Path, to: Path) -> None:
         shutil.copyfile(root / path, to / path)
 
 
-def run(*command: str, where: Path) -> None:
-    """Run a command in the staged tree; Failed with its last lines when it fails."""
-    # -I keeps this checkout off the path; the staged tree is put on it by hand
-    done = subprocess.run(
-        [sys.executable, "-OO", "-I", *command],
-        cwd=where,
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=180,
-    )
-    if done.returncode:
-        raise Failed("\n".join((done.stdout + done.stderr).strip().splitlines()[-8:]))
-
-
 def modules(files: list[Path]) -> list[str]:
     """Dotted names of the staged Python files; a package's entry points are imported as any other module."""
     names = [".".join(path.with_suffix("").parts) for path in files if path.suffix == ".py"]
     return [name.removesuffix(".__init__") for name in names if name != "main"] + ["main"]
 
 
-def shaders(files: list[Path], root: Path) -> Iterator[tuple[str, str, str]]:
-    """(where, `frag` or `vert`, GLSL text) of each shader that stands in the code as a string."""
-    for path in files:
-        if path.suffix != ".py":
-            continue
-        for node in ast.walk(ast.parse((root / path).read_text())):
-            if isinstance(node, ast.Constant) and isinstance(node.value, str) and "void main" in node.value:
-                kind = "vert" if "gl_Position" in node.value else "frag"
-                yield f"{path}:{node.lineno}", kind, node.value
+def compile_all(tree: Path) -> None:
+    """As the phone gets them; Failed for what is no Python."""
+    # -I keeps this checkout off the path
+    run(sys.executable, "-OO", "-I", "-m", "compileall", "-q", ".", where=tree)
 
 
-def glsl_es(kind: str, text: str) -> str:
-    """The text with Kivy's header put in, as the phone's compiler gets it."""
-    found = importlib.util.find_spec("kivy")  # importing it would print and write logs
-    if found is None or found.origin is None:
-        raise Failed("Kivy, whose header the shaders need, is not installed.")
-    header = Path(found.origin).parent / "data" / "glsl" / f"header.{kind[0]}s"
-    body = text.replace("$HEADER$", header.read_text())
-    return "#version 100\n" + body
-
-
-def check_shaders(files: list[Path], root: Path) -> str:
-    """Compile the shaders where the reference compiler is installed; returns what was done."""
-    found = list(shaders(files, root))
-    tool = shutil.which("glslangValidator")
-    if not tool:
-        return f"shaders: {len(found)} NOT checked, glslangValidator is not installed (Debian: glslang-tools)"
-    for where, kind, text in found:
-        command = [tool, "--stdin", "-S", kind]
-        done = subprocess.run(command, input=glsl_es(kind, text), capture_output=True, text=True, check=False)
-        if done.returncode:
-            raise Failed(f"the shader at {where} is not GLSL ES 1.00: {done.stdout.strip()}")
-    return f"shaders: {len(found)} compile as GLSL ES 1.00"
-
-
-def main() -> int:
-    """Run every check and print a line for each; 1 when one did not hold."""
-    try:
-        spec = read_spec(ROOT / "buildozer.spec")
-        files = check_files(ROOT, spec)
-        requirements = check_requirements(spec)
-        check_manifest(ROOT, spec)
-        check_voice(ROOT, spec)
-        check_imports(files, ROOT, requirements)
-        size = sum((ROOT / path).stat().st_size for path in files)
-        print(f"spec: {len(files)} files, {size / 1e6:.1f} MB, only main.py, app, widgets and bridge")
-        print(f"requirements: {len(requirements)}, each spelled as python-for-android wants it, none missing")
-        with tempfile.TemporaryDirectory() as folder:
-            tree = Path(folder)
-            stage(files, ROOT, tree)
-            run("-m", "compileall", "-q", ".", where=tree)
-            print("compiled: every file, without asserts and docstrings (-OO)")
-            names = modules(files)
-            run("-c", IMPORT_ALL, ",".join(DESKTOP_ONLY), *names, where=tree)
-            print(
-                f"imported: {len(names)} modules with neither robot side, simulator nor desktop libraries at hand"
-            )
-            print(check_shaders(files, ROOT))
-    except Failed as failure:
-        print(f"android-check: {failure}")
-        return 1
-    print("android-check: all held; no APK was built, that needs Google's toolchain")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def import_all(tree: Path, files: list[Path]) -> int:
+    """Imports every module of the tree, and says how many; Failed where one needs what the phone does not have."""
+    names = modules(files)
+    run(sys.executable, "-OO", "-I", "-c", IMPORT_ALL, ",".join(DESKTOP_ONLY), *names, where=tree)
+    return len(names)
