@@ -68,7 +68,7 @@ def said(text: str) -> Samples:
 def test_the_one_that_is_shipped_knows_its_word(text, is_stop):
     assert shipped() is shipped()
     model, sound = HamaModel(), said(text)
-    assert (model.stop_ends(levelled(sound)).max() > SURE) is is_stop
+    assert bool(model.stop_ends(levelled(sound)).max() > SURE) is is_stop
     # where it is less sure than that, the sounds of the word decide
     heard = Spotter(Grammar(COMMANDS), model).running(sound, 10.0)
     assert (heard is not None) is is_stop
