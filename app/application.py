@@ -10,11 +10,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from kivy.app import App
+from kivy.clock import Clock
 from kivy.core.window import Window
 
 from app.core.client_identity import client_identity
-from app.core.notifications import notify
+from app.core.low_memory import make_room
 from app.core.preferences import Preferences
+from app.core.returning import Returning
 from app.core.settings_store import Settings
 from app.device import device_name, own_folder
 from app.device.documents import documents
@@ -40,6 +42,7 @@ from app.robot_visit import RobotVisit
 from app.root import Root
 from app.screens.connect.connect import ConnectScreen
 from app.screens.connect.simulator_launcher import SimulatorLauncher
+from app.screens.parts.screen_table import names
 from app.screens.parts.themes import Themes
 from app.screens.shell.stop_corner import StopCorner
 from app.session.recordings import Recordings
@@ -107,7 +110,7 @@ class PilothouseApp(Showing, App):
         )
         kept = folder if self._settings_dir is not None else documents(folder)
         self.records = Recordings(kept, self.say, old=folder)
-        self.preferences = Preferences(self.settings)
+        self.preferences, self.returning = Preferences(self.settings), Returning(self, names())
         self.themes = Themes(self.settings, self._theme)
         self.client_id = client_identity(self.settings)
         self.client_name = str(self.settings.get("client_name") or device_name())
@@ -164,6 +167,7 @@ class PilothouseApp(Showing, App):
         self.inputs.open()
         self.methods.open()
         Window.allow_screensaver = False
+        Window.bind(on_memorywarning=make_room)
         self.pages.on_show = self.corner.tick  # STOP ALL is never where STOP is, not for a frame
         self._idle = get_ready(self)
         self._list()
@@ -171,13 +175,16 @@ class PilothouseApp(Showing, App):
         self.robot_list.trust.begin(self._pair)
         if self._url:
             self.open(self._url)
+        elif screen := self.returning.begin():
+            self.pages.screen = screen
         elif self._first_screen in LONE:
             self._show_anywhere(self._first_screen)
-        if self._tours and not self._url:
+        if self._tours and self.session is None:
             self.begin_tour_if_new()
 
     def on_stop(self) -> None:
         """Leave the robot at rest, end every thread and the simulator."""
+        Window.unbind(on_memorywarning=make_room)
         self._idle.close()
         self.opened.close()
         self.renewal.close()
@@ -205,11 +212,16 @@ class PilothouseApp(Showing, App):
         self.corner.leave(self.session)
         self.visit.suspend()
         self.records.stop()
+        robot = (
+            self.session if self.simulating.current is None else None
+        )  # one of this device ends with the app
+        self.returning.put_away(robot.link.url if robot is not None else "", self.pages.screen)
         self.collector.pause()
         return True
 
     def on_resume(self) -> None:
         """Come back: connect again; whoever wants to drive has to push the stick anew."""
+        self.returning.forget()
         self.collector.resume()
         self.methods.resume()
         self.visit.resume()
@@ -248,14 +260,6 @@ class PilothouseApp(Showing, App):
         if self.session is None or self.shell is not None:
             self._say_problems()
         self.visit.tick()
-
-    def _say_problems(self) -> None:
-        """What is wrong with the settings, once each."""
-        checked = (self.preferences, self.themes, self.sounds)
-        for problem in filter(None, (self.settings.news(), *(one.sentence for one in checked))):
-            self.say(problem, "warn")
-        for one in checked:
-            one.sentence = ""
 
     # the list of robots
 
@@ -298,8 +302,5 @@ class PilothouseApp(Showing, App):
 
         self.methods.open_rest()  # none of them misses what a robot says
         self.robot_list.on_answer(session)
+        Clock.schedule_once(lambda _: self.returning.tell())
         return robot_shell(self, session, self.profiles, size=self.pages.root.size, pos=self.pages.root.pos)
-
-    def say(self, text: str, level: str) -> None:
-        """Show one sentence, wherever the operator looks."""
-        notify(self, text, level)

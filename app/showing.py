@@ -6,12 +6,17 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from app.core.notifications import notify
+from app.core.preferences import Preferences
 from app.core.settings_store import Settings
 from app.discovery.known_robots import KnownRobots
 from app.network_side import NetworkSide
 from app.pages import Pages, toggle_help
 from app.robot_directory import RobotDirectory
 from app.robot_visit import RobotVisit
+from app.screens.connect.connect import ConnectScreen
+from app.screens.parts.themes import Themes
+from app.sounds.sounds import Sounds
 
 if TYPE_CHECKING:
     from app.maps.maps import Maps
@@ -32,6 +37,10 @@ class Showing:
     visit: RobotVisit
     robot_list: RobotDirectory
     settings: Settings
+    preferences: Preferences
+    themes: Themes
+    connect: ConnectScreen
+    sounds: Sounds
     client_name: str
     _network: NetworkSide
     _tour: Tour | None = None
@@ -110,6 +119,18 @@ class Showing:
             self.pages.show_lone(name)
         if pane and (screen := self.pages.screen_of(name)) is not None:
             screen.open(pane)
+
+    def _say_problems(self) -> None:
+        """What is wrong with the settings, once each."""
+        checked = (self.preferences, self.themes, self.sounds)
+        for problem in filter(None, (self.settings.news(), *(one.sentence for one in checked))):
+            self.say(problem, "warn")
+        for one in checked:
+            one.sentence = ""
+
+    def say(self, text: str, level: str) -> None:
+        """Show one sentence, wherever the operator looks."""
+        notify(self, text, level)
 
     def toggle_help(self) -> None:
         """Show what keys and buttons mean over the page, or hide it."""

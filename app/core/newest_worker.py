@@ -19,7 +19,7 @@ class NewestWorker(Generic[T]):
         self._work, self._name = work, name
         self._ready = threading.Condition()
         self._waiting: list[T] = []
-        self._closed = False
+        self._closed = self._busy = False
         self._thread: threading.Thread | None = None
         self.skipped = 0
         """Items that were replaced by a newer one before their turn."""
@@ -34,13 +34,18 @@ class NewestWorker(Generic[T]):
             if self._thread is None:
                 self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
                 self._thread.start()
-            self._ready.notify()
+            self._ready.notify_all()
+
+    def flush(self, limit: float) -> bool:
+        """Wait until nothing waits or is worked on, `limit` [s] at most; whether that is so."""
+        with self._ready:
+            return self._ready.wait_for(lambda: not self._waiting and not self._busy, limit)
 
     def close(self) -> None:
         """Finish the item that waits and end the thread; later items are ignored."""
         with self._ready:
             self._closed = True
-            self._ready.notify()
+            self._ready.notify_all()
         if self._thread is not None:
             self._thread.join(5.0)
 
@@ -48,7 +53,7 @@ class NewestWorker(Generic[T]):
         """End the thread without waiting for it: what waits is not done, and later items are ignored."""
         with self._ready:
             self._closed, self._waiting = True, []
-            self._ready.notify()
+            self._ready.notify_all()
 
     def _run(self) -> None:
         while True:
@@ -56,5 +61,10 @@ class NewestWorker(Generic[T]):
                 self._ready.wait_for(lambda: self._waiting or self._closed)
                 if not self._waiting:
                     return
-                item = self._waiting.pop()
-            self._work(item)
+                item, self._busy = self._waiting.pop(), True
+            try:
+                self._work(item)
+            finally:
+                with self._ready:
+                    self._busy = False
+                    self._ready.notify_all()

@@ -46,6 +46,10 @@ class Settings:
         self._said = problem
         return problem if problem != before else ""
 
+    def flush(self, limit: float) -> bool:
+        """Wait until everything is on the disk, `limit` [s] at most; whether it is, or could not be written at all."""
+        return self._writer.flush(limit)
+
     def close(self) -> None:
         """Write what is not written and end the thread."""
         self._writer.close()
