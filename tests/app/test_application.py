@@ -132,9 +132,11 @@ def test_stop_is_sent_when_the_finger_comes_down_and_shown_when_the_robot_confir
     driving.until(lambda: stop.phase == "stopped", "not confirmed")
     driving.until(lambda: driving.app.screens["drive"].stick.state == "disabled", "the stick still lives")
     touch = driving.hold(stop)
-    driving.until(lambda: "/stop/hold" in robot.services(), "the robot was not told of the hold")
-    assert "/stop/release" not in robot.services()
+    driving.stage.run_for(0.5)
+    assert "/stop/release" not in robot.services(), "it has to be held for a second"
     driving.until(lambda: "/stop/release" in robot.services(), "a hold did not release")
+    told = robot.services()
+    assert told.index("/stop/hold") < told.index("/stop/release")
     touch.touch_up()
     driving.until(lambda: stop.phase == "ready", "not released")
 
