@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import logging
-import math
 import os
 import platform
 import re
@@ -21,11 +19,7 @@ __all__ = [
     "rotation",
     "sdl_library",
     "sees_broadcasts",
-    "vibrate",
 ]
-
-
-log = logging.getLogger(__name__)
 
 
 def is_android() -> bool:
@@ -94,20 +88,6 @@ def rotation() -> int:
 
     activity = autoclass("org.kivy.android.PythonActivity").mActivity
     return int(activity.getWindowManager().getDefaultDisplay().getRotation())
-
-
-def vibrate(seconds: float) -> bool:
-    """Have the hand feel something for that long, at most 2 s; False, and nothing happens, where nothing can vibrate."""
-    if not is_android() or not 0.0 < seconds < math.inf:
-        return False
-    from plyer import vibrator
-
-    try:
-        vibrator.vibrate(min(seconds, 2.0))
-    except Exception as problem:  # noqa: BLE001 - whatever a phone answers, what was understood goes on
-        log.warning("The phone does not vibrate: %s", problem)
-        return False
-    return True
 
 
 class sees_broadcasts:  # noqa: N801 - used as a word in `with`

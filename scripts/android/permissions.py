@@ -19,7 +19,7 @@ NEEDS = {
     r"createWifiLock|newWakeLock": ("WAKE_LOCK",),
     r"ConnectivityManager|getActiveNetwork|registerNetworkCallback": ("ACCESS_NETWORK_STATE",),
     r"getConnectionInfo|getScanResults|WifiInfo": ("ACCESS_WIFI_STATE",),
-    r"plyer import (\w+, )*vibrator|android\.os\.Vibrat|VibrationEffect": ("VIBRATE",),
+    r"plyer import (\w+, )*vibrator|android\.os\.Vibrat|VibrationEffect|VIBRATOR_SERVICE": ("VIBRATE",),
     r"SpeechRecognizer|AudioRecord|MediaRecorder": ("RECORD_AUDIO",),
     r"LocationManager|plyer import (\w+, )*gps": ("ACCESS_COARSE_LOCATION", "ACCESS_FINE_LOCATION"),
     r"CameraManager|android\.hardware\.Camera|kivy\.(core|uix)\.camera": ("CAMERA",),

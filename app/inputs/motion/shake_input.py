@@ -13,7 +13,8 @@ from dataclasses import asdict
 from typing import Any
 
 from app.core.checked_settings import CheckedSettings, known, shown
-from app.device import rotation, vibrate
+from app.device import rotation
+from app.device.vibration import DONE, STOPS, vibrate
 from app.inputs.base.toggleable_method import ToggleableMethod
 from app.inputs.motion.motion_app import MotionApp
 from app.inputs.motion.shake import (
@@ -43,10 +44,6 @@ CHOICES: dict[Axis, tuple[str, ...]] = {
     "fb": ("resume", "pause", "go_home", "end_task", "hold", "land", "surface", "lights", "snapshot", ""),
 }
 """What may be chosen; empty for nothing. Left-right is STOP, always."""
-VIBRATION_TIME = 0.12
-"""How long the phone vibrates when something was understood [s]."""
-STOP_VIBRATION_TIME = 0.4
-"""[s]"""
 SNIPPET_TIME = 6.0
 """So much of what was measured goes into the log with the operator's consent [s]."""
 NEEDED_RATE = MIN_RATE - 0.4
@@ -249,7 +246,7 @@ class ShakeInput(ToggleableMethod):
             before = self.lesson.axis
             self.lesson.feed(t, axes)
             if self.lesson.axis != before:
-                vibrate(VIBRATION_TIME)
+                vibrate(DONE)
             return
         self._recent.append((t, axes))
         self._recogniser.any_shake = self._any and self._moves()
@@ -267,7 +264,7 @@ class ShakeInput(ToggleableMethod):
         if not intent:
             self.said = tr("{words} means nothing.").format(words=tr(WORDS[shake.axis]))
             return
-        vibrate(STOP_VIBRATION_TIME if stops else VIBRATION_TIME)
+        vibrate(STOPS if stops else DONE)
         if self._trying and not (stops and self._app.intents.possible("stop")):
             self.said = tr("Understood; while it is tried out nothing is done.")
             return

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from app.device import vibrate
+from app.device.vibration import STEP, vibrate
 from app.inputs.base.method_app import MethodApp
 from app.inputs.switch_access.scan.settings import Options
 from app.inputs.switch_access.scan.target import Mark
 from app.inputs.switch_access.tones import Tones
 
 __all__ = ["StepFeedback"]
-
-VIBRATION_TIME = 0.02
-"""How long a step is felt [s]."""
 
 
 class StepFeedback:
@@ -26,7 +23,7 @@ class StepFeedback:
         if options.tones:
             self._tones.play(sound)
         if options.vibrates:
-            vibrate(VIBRATION_TIME)
+            vibrate(STEP)
         talk = getattr(self._app, "talk", None)
         if options.spoken and talk is not None and mark is not None:
             talk.say(mark.words)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from app.device import vibrate
+from app.device.vibration import REFUSED, STOPS, UNDERSTOOD, vibrate
 from app.intents.intents import CANCEL_TIME, CONFIRM_TIME, INTENTS, PRESSED, Heard, Intents, Pending, Verdict
 from app.intents.method_permits import LOOKS
 from app.screens.parts.method_signs import METHOD_SIGNS
@@ -17,10 +17,17 @@ __all__ = ["IntentPrompts", "heard_words"]
 
 ABOUT = "intent"
 """What the sentences tell of."""
-BUZZ_DURATION = 0.08
-"""How long the phone vibrates when a gesture or a word was understood [s]."""
 EYES_FREE_METHODS = ("voice", "shake", "switches")
 """Methods whose user may not look at the glass."""
+FELT = {
+    "acted": UNDERSTOOD,
+    "waits": UNDERSTOOD,
+    "asks": UNDERSTOOD,
+    "not allowed": REFUSED,
+    "not now": REFUSED,
+    "lapsed": REFUSED,
+}
+"""What their hand feels of what came of it."""
 
 
 def heard_words(heard: Heard) -> str:
@@ -73,8 +80,10 @@ class IntentPrompts:
 
     def _told(self, heard: Heard, verdict: Verdict) -> None:
         """What is done or cancelled is said; what waits has its card."""
-        if heard.method in EYES_FREE_METHODS and verdict.what in ("acted", "waits", "asks"):
-            vibrate(BUZZ_DURATION)
+        if heard.method in EYES_FREE_METHODS and verdict.what in FELT:
+            # a new pattern ends the one before: that of a STOP that was shaken must not be cut short
+            stops = heard.intent == "stop" and verdict.what == "acted"
+            vibrate(STOPS if stops else FELT[verdict.what])
         if not verdict.done or not verdict.sentence or verdict.what in ("cancelled", "practised"):
             return  # its card goes, and whoever said no is told so; the study's own card says what was understood
         done = verdict.what == "acted"

@@ -11,26 +11,22 @@ import pytest
 
 from app.device import file_picking as module
 from app.device.file_picking import REQUEST, AndroidPicking, DesktopPicking, file_picking
+from tests.app.device.java import Handle, JavaException, install, java
 
-
-class JavaException(Exception):
-    pass
+INTENT = "android.content.Intent"
 
 
 class Intent:
-    ACTION_OPEN_DOCUMENT, CATEGORY_OPENABLE, EXTRA_ALLOW_MULTIPLE = "open", "openable", "multiple"
+    """What was put into one."""
 
     def __init__(self, action):
         self.action, self.extras = action, {}
-
-    def addCategory(self, name):
-        self.category = name
-
-    def setType(self, kind):
-        self.kind = kind
-
-    def putExtra(self, name, value):
-        self.extras[name] = value
+        self.java = java(
+            INTENT,
+            addCategory=lambda name: setattr(self, "category", name),
+            setType=lambda kind: setattr(self, "kind", kind),
+            putExtra=self.extras.__setitem__,
+        )
 
 
 @pytest.fixture(autouse=True)
@@ -43,43 +39,53 @@ class Phone:
 
     def __init__(self, monkeypatch, folder):
         self.asked, self.bound, self.folder = [], [], folder
-        resolver = SimpleNamespace(openFileDescriptor=self._open, query=lambda uri, *_: self._row(uri))
+        resolver = java(
+            "android.content.ContentResolver",
+            openFileDescriptor=self._open,
+            query=lambda uri, *_: self._row(uri),
+        )
         android = ModuleType("android")
         android.activity = SimpleNamespace(
             bind=lambda on_activity_result: self.bound.append(on_activity_result),  # noqa: PLW0108 - by that name
             unbind=lambda on_activity_result: self.bound.remove(on_activity_result),  # noqa: PLW0108 - same
         )
-        jnius = ModuleType("jnius")
-        jnius.JavaException = JavaException
-        activity = SimpleNamespace(
-            getContentResolver=lambda: resolver,
-            startActivityForResult=lambda *given: self.asked.append(given),
+        activity = java(
+            "android.app.Activity",
+            getContentResolver=resolver,
+            startActivityForResult=lambda intent, request: self.asked.append((self.intents[-1], request)),
         )
-        classes = {
-            "org.kivy.android.PythonActivity": SimpleNamespace(mActivity=activity),
-            "android.content.Intent": Intent,
-        }
-        jnius.autoclass = classes.__getitem__
+        self.intents = []
+        install(
+            monkeypatch,
+            java("org.kivy.android.PythonActivity", mActivity=activity),
+            java(INTENT, new=self._intent),
+        )
         monkeypatch.setitem(sys.modules, "android", android)
-        monkeypatch.setitem(sys.modules, "jnius", jnius)
+
+    def _intent(self, action):
+        self.intents.append(Intent(action))
+        return self.intents[-1].java
 
     @staticmethod
     def _row(uri):
-        return SimpleNamespace(moveToFirst=lambda: True, getString=lambda _: uri, close=lambda: None)
+        return java("android.database.Cursor", moveToFirst=True, getString=lambda _: uri, close=None)
 
     def _open(self, uri, _):
         if uri == "locked":
             raise JavaException("no permission")
         path = self.folder / "source"
         path.write_text(uri)
-        return SimpleNamespace(detachFd=lambda: os.open(path, os.O_RDONLY))
+        return java("android.os.ParcelFileDescriptor", detachFd=lambda: os.open(path, os.O_RDONLY))
 
     def answer(self, *uris, request=REQUEST):
-        clip = SimpleNamespace(
-            getItemCount=lambda: len(uris),
-            getItemAt=lambda index: SimpleNamespace(getUri=lambda: uris[index]),
+        clip = java(
+            "android.content.ClipData",
+            getItemCount=len(uris),
+            getItemAt=lambda index: java("android.content.ClipData$Item", getUri=Handle(uris[index])),
         )
-        intent = SimpleNamespace(getClipData=lambda: clip if len(uris) > 1 else None, getData=lambda: uris[0])
+        intent = java(
+            INTENT, getClipData=clip if len(uris) > 1 else None, getData=Handle(uris[0]) if uris else None
+        )
         for bound in list(self.bound):
             bound(request, -1, intent if uris else None)
         for thread in threading.enumerate():
@@ -101,7 +107,12 @@ def phone(monkeypatch, tmp_path, told):
 
 def test_what_is_chosen_on_a_phone_is_copied_into_the_apps_folder(phone, tmp_path, told):
     ((ask, request),) = phone.asked
-    assert (ask.action, ask.kind, ask.extras, request) == ("open", "*/*", {"multiple": True}, REQUEST)
+    assert (ask.action, ask.kind, ask.extras, request) == (
+        f"{INTENT}.ACTION_OPEN_DOCUMENT",
+        "*/*",
+        {f"{INTENT}.EXTRA_ALLOW_MULTIPLE": True},
+        REQUEST,
+    )
     phone.answer("hall.yaml", "hall.pgm", request=17)
     assert not told, "the answer to another question"
     phone.answer("hall.yaml", "hall.pgm")

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
-from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
 
 from app.device import insets as module
 from app.device.insets import NONE, VARIABLE, Insets, beyond_content, insets, read_insets
+from tests.app.device.java import JavaException, install, java
 
 
 def test_the_environment_says_them_in_dp() -> None:
@@ -37,46 +36,48 @@ def test_what_the_content_keeps_clear_of_already_is_not_kept_twice() -> None:
     assert beyond_content(safe, (2400, 1080), (50, 0, 2350, 1040)) == Insets(40, 0, 0, 0)
 
 
-class Content:
-    def getLocationInWindow(self, place: list[int]) -> None:
-        place[:] = [0, 0]
-
-    getWidth, getHeight = lambda _: 2400, lambda _: 1080
+def place(at: list[int]) -> None:
+    at[:] = [0, 0]
 
 
 def phone(monkeypatch: pytest.MonkeyPatch, told: Any) -> None:
-    window = SimpleNamespace(
-        getRootWindowInsets=lambda: told,
-        getWidth=lambda: 2400,
-        getHeight=lambda: 1080,
-        findViewById=lambda _: Content(),
+    content = java("android.view.View", getLocationInWindow=place, getWidth=2400, getHeight=1080)
+    view = java(
+        "android.view.View", getRootWindowInsets=told, getWidth=2400, getHeight=1080, findViewById=content
     )
-    activity = SimpleNamespace(getWindow=lambda: SimpleNamespace(getDecorView=lambda: window))
-    classes = {
-        "org.kivy.android.PythonActivity": SimpleNamespace(mActivity=activity),
-        "android.R$id": SimpleNamespace(content=7),
-    }
-    jnius = ModuleType("jnius")
-    jnius.__dict__["autoclass"] = classes.__getitem__
-    monkeypatch.setitem(sys.modules, "jnius", jnius)
+    window = java("android.view.Window", getDecorView=view)
+    activity = java("android.app.Activity", getWindow=window)
+    install(
+        monkeypatch,
+        java("org.kivy.android.PythonActivity", mActivity=activity),
+        java("android.R$id", content=7),
+    )
     monkeypatch.setattr(module, "is_android", lambda: True)
 
 
 def sides(kind: str, left: int, top: int, right: int, bottom: int) -> dict[str, Any]:
     values = dict(zip(("Left", "Top", "Right", "Bottom"), (left, top, right, bottom), strict=True))
-    return {f"get{kind}Inset{side}": lambda value=value: value for side, value in values.items()}
+    return {f"get{kind}Inset{side}": value for side, value in values.items()}
 
 
 def test_on_a_phone_the_larger_of_cutout_and_bars_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
-    cutout = SimpleNamespace(**sides("Safe", 90, 0, 0, 0))
-    told = SimpleNamespace(**sides("SystemWindow", 60, 0, 0, 48), getDisplayCutout=lambda: cutout)
+    cutout = java("android.view.DisplayCutout", **sides("Safe", 90, 0, 0, 0))
+    told = java("android.view.WindowInsets", **sides("SystemWindow", 60, 0, 0, 48), getDisplayCutout=cutout)
     phone(monkeypatch, told)
     assert insets(2.625, {}) == Insets(90, 0, 0, 48)
-    phone(monkeypatch, SimpleNamespace(**sides("SystemWindow", 0, 63, 0, 0), getDisplayCutout=lambda: None))
+    phone(
+        monkeypatch,
+        java("android.view.WindowInsets", **sides("SystemWindow", 0, 63, 0, 0), getDisplayCutout=None),
+    )
     assert insets(2.625, {}) == Insets(0, 63, 0, 0)
 
 
-@pytest.mark.parametrize("told", [None, SimpleNamespace()], ids=["nothing yet", "an older system"])
-def test_a_phone_that_does_not_tell_has_all_of_its_glass(monkeypatch: pytest.MonkeyPatch, told: Any) -> None:
-    phone(monkeypatch, told)
+def too_old() -> None:
+    raise JavaException("no method getDisplayCutout")
+
+
+@pytest.mark.parametrize("kind", ["nothing yet", "an older system"])
+def test_a_phone_that_does_not_tell_has_all_of_its_glass(monkeypatch: pytest.MonkeyPatch, kind: str) -> None:
+    old = java("android.view.WindowInsets", **sides("SystemWindow", 0, 63, 0, 0), getDisplayCutout=too_old)
+    phone(monkeypatch, None if kind == "nothing yet" else old)
     assert insets(2.625, {}) == NONE

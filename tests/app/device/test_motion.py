@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import sys
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -22,6 +22,7 @@ from app.device.motion import (
     motion_source,
     up_of,
 )
+from tests.app.device.java import install, java
 
 
 class Service:
@@ -33,7 +34,7 @@ class Service:
         self.rates: list[int] = []
 
     def getDefaultSensor(self, kind: int) -> Any:
-        return SimpleNamespace(getType=lambda: kind) if kind in self.types else None
+        return java("android.hardware.Sensor", getType=kind) if kind in self.types else None
 
     def registerListener(self, listener: Any, sensor: Any, rate: int) -> bool:
         if sensor.getType() == self.unwilling:
@@ -52,19 +53,14 @@ def phone(monkeypatch: pytest.MonkeyPatch) -> Any:
 
     def phone(*types: int) -> Service:
         service = Service(*types)
-        activity = SimpleNamespace(getSystemService=lambda _: service)
-        classes = {
-            "android.content.Context": SimpleNamespace(SENSOR_SERVICE="sensor"),
-            "org.kivy.android.PythonActivity": SimpleNamespace(mActivity=activity),
-        }
-        jnius = ModuleType("jnius")
-        jnius.__dict__.update(
-            autoclass=classes.__getitem__,
-            PythonJavaClass=object,
-            java_method=lambda _: lambda function: function,
-            JavaException=type("JavaException", (Exception,), {}),
+        manager = java(
+            "android.hardware.SensorManager",
+            getDefaultSensor=service.getDefaultSensor,
+            registerListener=service.registerListener,
+            unregisterListener=service.unregisterListener,
         )
-        monkeypatch.setitem(sys.modules, "jnius", jnius)
+        activity = java("android.app.Activity", getSystemService=lambda _: manager)
+        install(monkeypatch, java("org.kivy.android.PythonActivity", mActivity=activity))
         return service
 
     return phone

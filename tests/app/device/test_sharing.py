@@ -3,38 +3,30 @@
 from __future__ import annotations
 
 import os
-import sys
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
 
 from app.device.sharing import FOLDER, AndroidSharing, sharing
+from tests.app.device.java import Handle, JavaException, install, java
 
-
-class JavaException(Exception):
-    pass
+SEND = "android.content.Intent.ACTION_SEND"
+STREAM = "android.content.Intent.EXTRA_STREAM"
+INTENT = "android.content.Intent"
 
 
 class Intent:
-    ACTION_SEND, EXTRA_STREAM, FLAG_GRANT_READ_URI_PERMISSION = "send", "stream", 1
+    """What was put into one."""
 
     def __init__(self, action: str) -> None:
         self.action, self.kind, self.flags, self.extras = action, "", 0, {}
-
-    def setType(self, kind: str) -> None:
-        self.kind = kind
-
-    def putExtra(self, name: str, value: Any) -> None:
-        self.extras[name] = value
-
-    def addFlags(self, flags: int) -> None:
-        self.flags |= flags
-
-    @staticmethod
-    def createChooser(send: Intent, title: str) -> tuple[str, Intent, str]:
-        return "chooser", send, title
+        self.java = java(
+            INTENT,
+            setType=lambda kind: setattr(self, "kind", kind),
+            putExtra=self.extras.__setitem__,
+            addFlags=lambda flags: setattr(self, "flags", self.flags | flags),
+        )
 
 
 class Phone:
@@ -43,49 +35,55 @@ class Phone:
     def __init__(self, monkeypatch: pytest.MonkeyPatch, folder: Path, version: int) -> None:
         self.folder, self.begun, self.deleted, self.lax, self.refuses = folder, [], [], [], False
         self.rows: list[dict[str, str]] = []
-        values = SimpleNamespace
-        resolver = SimpleNamespace(
+        self.intents: list[Intent] = []
+        resolver = java(
+            "android.content.ContentResolver",
             insert=self._insert,
             openFileDescriptor=self._open,
             delete=lambda *given: self.deleted.append(given),
         )
-        activity = SimpleNamespace(
-            getContentResolver=lambda: resolver,
-            getExternalFilesDir=lambda _: SimpleNamespace(getAbsolutePath=lambda: str(folder)),
+        activity = java(
+            "android.app.Activity",
+            getContentResolver=resolver,
+            getExternalFilesDir=java("java.io.File", getAbsolutePath=str(folder)),
             startActivity=self.begun.append,
         )
-        classes: dict[str, Any] = {
-            "org.kivy.android.PythonActivity": values(mActivity=activity),
-            "android.os.Build$VERSION": values(SDK_INT=version),
-            "android.content.ContentValues": self._values,
-            "android.provider.MediaStore$Downloads": values(EXTERNAL_CONTENT_URI="downloads"),
-            "android.os.StrictMode$VmPolicy$Builder": lambda: values(build=lambda: "lax"),
-            "android.os.StrictMode": values(setVmPolicy=self.lax.append),
-            "android.net.Uri": values(fromFile=lambda file: f"file:{file}"),
-            "java.io.File": str,
-            "android.content.Intent": Intent,
-            "java.lang.String": str,
-        }
-        jnius = ModuleType("jnius")
-        jnius.__dict__.update(
-            autoclass=classes.__getitem__, cast=lambda _, value: value, JavaException=JavaException
+        chosen = lambda send, title: ("chooser", self.intents[-1], title)  # noqa: E731 - as Android's maker of them
+        install(
+            monkeypatch,
+            java("org.kivy.android.PythonActivity", mActivity=activity),
+            java("android.os.Build$VERSION", SDK_INT=version),
+            java("android.content.ContentValues", new=self._values),
+            java("android.provider.MediaStore$Downloads", EXTERNAL_CONTENT_URI=Handle("downloads")),
+            java(
+                "android.os.StrictMode$VmPolicy$Builder",
+                new=lambda: java("android.os.StrictMode$VmPolicy$Builder", build=Handle("lax")),
+            ),
+            java("android.os.StrictMode", setVmPolicy=self.lax.append),
+            java("android.net.Uri", fromFile=lambda file: Handle(f"file:{file}")),
+            java("java.io.File", new=Handle),
+            java(INTENT, new=self._intent, createChooser=chosen, FLAG_GRANT_READ_URI_PERMISSION=1),
+            java("java.lang.String", new=Handle),
         )
-        monkeypatch.setitem(sys.modules, "jnius", jnius)
+
+    def _intent(self, action: str) -> Any:
+        self.intents.append(Intent(action))
+        return self.intents[-1].java
 
     def _values(self) -> Any:
         row: dict[str, str] = {}
         self.rows.append(row)
-        return SimpleNamespace(put=row.__setitem__)
+        return java("android.content.ContentValues", put=row.__setitem__)
 
     def _insert(self, _: str, __: Any) -> str:
         if self.refuses:
             raise JavaException("no room")
-        return "content:7"
+        return Handle("content:7")
 
     def _open(self, _: str, how: str) -> Any:
         assert how == "w"
         number = os.open(self.folder / self.rows[-1]["_display_name"], os.O_WRONLY | os.O_CREAT)
-        return SimpleNamespace(detachFd=lambda: number)
+        return java("android.os.ParcelFileDescriptor", detachFd=number)
 
 
 @pytest.fixture
@@ -107,9 +105,9 @@ def test_a_copy_in_download_is_handed_to_whoever_is_chosen_for_it(
     ]
     ((how, send, title),) = phone.begun
     assert (how, title, send.action, send.kind, send.flags) == (
-        "chooser", "study_1.zip", "send", "application/zip", 1,
+        "chooser", "study_1.zip", SEND, "application/zip", 1,
     )  # fmt: skip
-    assert send.extras == {"stream": "content:7"}
+    assert send.extras == {STREAM: "content:7"}
     assert phone.lax == []
 
 
@@ -120,7 +118,7 @@ def test_before_android_10_it_is_a_file_on_the_shared_storage(
     out = AndroidSharing()
     out.share(zip_)
     ((_, send, _),) = phone.begun
-    assert send.extras == {"stream": f"file:{tmp_path / 'study_1.zip'}"}
+    assert send.extras == {STREAM: f"file:{tmp_path / 'study_1.zip'}"}
     assert phone.lax == ["lax"]
     out.forget()
     assert not (tmp_path / "study_1.zip").exists()

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from app.device.motion import NoMotion, SimulatedMotion
+from app.device.vibration import DONE, STOPS, Pattern
 from app.inputs.motion import shake_input as module
 from app.inputs.motion.motion_sensing import MotionSensing
 from app.inputs.motion.shake import AXES, Axis, PersonalAxis, own_to
@@ -28,7 +29,7 @@ class Hand:
         self.t, self.quarters = 100.0, 0
         self.kept: dict[str, Any] = {"shake": kept} if kept else {}
         self.heard: list[Heard] = []
-        self.felt: list[float] = []
+        self.felt: list[Pattern] = []
         monkeypatch.setattr(module, "vibrate", self.felt.append)
         self.source = source or SimulatedMotion(now=lambda: self.t)
         self.sensing = MotionSensing(self.source, lambda: self.t)
@@ -99,7 +100,7 @@ def test_what_was_measured_goes_along_for_the_log(hand: Hand) -> None:
 def test_the_hand_feels_it_and_stop_longer(hand: Hand) -> None:
     hand.shakes("lr")
     hand.shakes("ud")
-    assert hand.felt == [module.STOP_VIBRATION_TIME, module.VIBRATION_TIME]
+    assert hand.felt == [STOPS, DONE]
 
 
 def test_off_the_sensor_is_off_and_nothing_is_understood(hand: Hand) -> None:
@@ -179,7 +180,7 @@ def test_the_lesson_is_kept_and_nothing_is_understood_meanwhile(hand: Hand) -> N
         hand.does(Recording("", "", 60.0, np.concatenate([still, take.samples[:180]])))
     assert hand.shaking.lesson is not None
     assert hand.shaking.lesson.over
-    assert hand.felt == [module.VIBRATION_TIME] * 3
+    assert hand.felt == [DONE] * 3
     hand.shaking.end_lesson()
     assert not hand.source.running
     assert set(hand.shaking.own) == set(AXES)

@@ -6,7 +6,9 @@ from typing import Any
 
 import pytest
 
+from app.device.vibration import REFUSED, STOPS, UNDERSTOOD, Pattern
 from app.intents.intents import Heard, Verdict
+from app.screens.shell import intent_prompts as module
 from app.screens.shell.intent_prompts import IntentPrompts
 
 
@@ -63,3 +65,26 @@ def test_a_success_leaves_what_was_said_of_another_method_since(around: Around) 
     taken(around, "pause", "keyboard", "not now", "No task runs.")
     said = taken(around, "lights", "voice", "acted", "Lights.", said="lights")
     assert taken(around, "record", "keyboard", "acted", "Record.") == said
+
+
+@pytest.mark.parametrize(
+    ("intent", "method", "what", "felt"),
+    [
+        ("stop", "shake", "acted", [STOPS]),
+        ("pause", "voice", "acted", [UNDERSTOOD]),
+        ("pause", "voice", "asks", [UNDERSTOOD]),
+        ("pause", "voice", "not now", [REFUSED]),
+        ("stop", "voice", "not now", [REFUSED]),
+        ("pause", "switches", "not allowed", [REFUSED]),
+        ("pause", "voice", "lapsed", [REFUSED]),
+        ("pause", "voice", "cancelled", []),
+        ("stop", "keyboard", "acted", []),
+    ],
+)
+def test_who_may_not_look_feels_whether_it_is_stop_understood_or_refused(
+    around: Around, monkeypatch: pytest.MonkeyPatch, intent: str, method: str, what: Any, felt: list[Pattern]
+) -> None:
+    told: list[Pattern] = []
+    monkeypatch.setattr(module, "vibrate", told.append)
+    taken(around, intent, method, what, "A sentence.", said="x", confidence=0.9)
+    assert told == felt
