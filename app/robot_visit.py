@@ -7,6 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from app.connector import Connector
+from app.device.wifi import WifiLock
 from app.frame_pacing import FramePacer
 from app.link.camera_decoder import PICTURE, REFUSED
 from app.link.feeds import Post
@@ -57,6 +58,7 @@ class RobotVisit:
         self._rest, self._on_cut, self._on_left = rest, on_cut, on_left
         self._ask_to_pair, self._pacer = ask_to_pair, pacer
         self._pictures = PictureFeed(now)
+        self._wifi = WifiLock()
         self.seen = LastPictures(now)
         """The last picture of each robot that was on the glass."""
         self.session: Session | None = None
@@ -70,6 +72,7 @@ class RobotVisit:
     def open(self, url: str, *, wants_control: bool, on_rest: Callable[[], object]) -> None:
         """Connect to a robot, leaving the one before; its screens come when it answers."""
         self.leave()
+        self._wifi.hold()
         self.session = self._connector().session(url, wants_control=wants_control)
         self.session.on_rest = on_rest
         self.connect.say(tr("Connecting to {url} …").format(url=url), "info", self.leave)
@@ -78,10 +81,12 @@ class RobotVisit:
         """The app is put away: let go of the robot, and keep what is known of it."""
         if self.session is not None:
             self.session.link.close(0.3)
+            self._wifi.let_go()
 
     def resume(self) -> None:
         """The app is back: connect again."""
         if self.session is not None:
+            self._wifi.hold()
             link = self._connector().link(self.session.link.url, self.session.logbook.known)
             self.session.resume(link)
             self._pictures.ask_again()
@@ -93,6 +98,7 @@ class RobotVisit:
         self._rest()
         self._on_cut(self._pages.close_shell())
         self.session.link.close()
+        self._wifi.let_go()
         self.session = None
         self._records.frame = None
         self._pictures.forget()

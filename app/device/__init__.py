@@ -9,7 +9,6 @@ import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 __all__ = [
     "device_name",
@@ -18,7 +17,6 @@ __all__ = [
     "own_folder",
     "rotation",
     "sdl_library",
-    "sees_broadcasts",
 ]
 
 
@@ -88,25 +86,3 @@ def rotation() -> int:
 
     activity = autoclass("org.kivy.android.PythonActivity").mActivity
     return int(activity.getWindowManager().getDefaultDisplay().getRotation())
-
-
-class sees_broadcasts:  # noqa: N801 - used as a word in `with`
-    """While it is entered, Android's Wi-Fi hands broadcasts to the app; elsewhere it does nothing."""
-
-    def __init__(self) -> None:
-        self._lock: Any = None
-
-    def __enter__(self) -> None:
-        if not is_android():
-            return
-        from jnius import autoclass
-
-        context = autoclass("org.kivy.android.PythonActivity").mActivity.getApplicationContext()
-        wifi = context.getSystemService(autoclass("android.content.Context").WIFI_SERVICE)
-        self._lock = wifi.createMulticastLock("pilothouse")
-        self._lock.acquire()
-
-    def __exit__(self, *_: object) -> None:
-        if self._lock is not None:
-            self._lock.release()
-            self._lock = None

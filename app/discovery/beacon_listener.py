@@ -9,7 +9,7 @@ import math
 import socket
 from collections.abc import Callable, Iterable
 
-from app.device import sees_broadcasts
+from app.device.wifi import sees_broadcasts
 from app.discovery.hello_inbox import HeardHello, HelloInbox
 from app.discovery.known_robots import Entry
 from app.discovery.mdns_browser import MdnsBrowser

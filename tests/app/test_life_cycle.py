@@ -84,6 +84,17 @@ def test_back_on_the_glass_it_connects_again_and_a_finger_from_before_drives_not
     touch.touch_up()
 
 
+def test_the_phones_wifi_is_kept_awake_only_while_a_robot_is_on_the_glass(driving: Glass, sdl, monkeypatch):
+    done: list[str] = []
+    wifi = driving.app.visit._wifi
+    monkeypatch.setattr(wifi, "hold", lambda: done.append("hold"))
+    monkeypatch.setattr(wifi, "let_go", lambda: done.append("let go"))
+    sdl(driving.app, AWAY, GONE, COMING, BACK)
+    driving.until(lambda: driving.app.session.connected, "did not come back")
+    driving.app.leave()
+    assert done == ["let go", "hold", "let go"]
+
+
 def test_coming_back_without_having_been_away_does_nothing(driving: Glass, sdl):
     link = driving.app.session.link
     sdl(driving.app, COMING, BACK)
