@@ -15,7 +15,17 @@ from typing import NamedTuple
 
 from scripts.android.failure import Failed
 
-__all__ = ["Interface", "Use", "check_java_names", "interfaces", "java_class", "stubs_folder", "uses"]
+__all__ = [
+    "OPTIONAL",
+    "Interface",
+    "Use",
+    "arity",
+    "check_java_names",
+    "interfaces",
+    "java_class",
+    "stubs_folder",
+    "uses",
+]
 
 COVERED = ("android", "androidx", "dalvik", "java", "javax")
 """Packages that the stubs have."""
@@ -202,30 +212,31 @@ def _check_interface(one: Interface, stubs: Path) -> None:
     for name in one.names:
         stub = java_class(name, stubs)
         wanted = {
-            method.name: _count(method)
+            method.name: arity(method)
             for method in (stub.body if stub else ())
             if isinstance(method, ast.FunctionDef)
         }
         for method, count in wanted.items():
-            if one.methods.get(method, -1) not in count_range(stub, method, count):
+            if one.methods.get(method, -1) not in _counts(stub, method, count):
                 raise Failed(f"{one.where}: {name} wants {method} with {count} arguments.")
         if odd := set(one.methods) - set(wanted):
             raise Failed(f"{one.where}: {name} has no {', '.join(sorted(odd))}.")
 
 
-def count_range(stub: ast.ClassDef | None, name: str, count: int) -> set[int]:
+def _counts(stub: ast.ClassDef | None, name: str, count: int) -> set[int]:
     """How many arguments any of an overloaded method's kinds takes; what is optional in an interface may be absent, as -1."""
     kinds = [
         one for one in (stub.body if stub else ()) if isinstance(one, ast.FunctionDef) and one.name == name
     ]
-    return {count} | {_count(one) for one in kinds} | ({-1} if name in OPTIONAL else set())
+    return {count} | {arity(one) for one in kinds} | ({-1} if name in OPTIONAL else set())
 
 
 OPTIONAL = frozenset({"onSegmentResults", "onEndOfSegmentedSession", "onLanguageDetection", "onError2"})
 """Methods that an interface got later, with a body of its own; older phones do not have them."""
 
 
-def _count(method: ast.FunctionDef) -> int:
+def arity(method: ast.FunctionDef) -> int:
+    """How many arguments Java hands over."""
     arguments = method.args
     return len(arguments.posonlyargs) + len(arguments.args) - 1  # without self
 

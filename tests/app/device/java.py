@@ -15,9 +15,9 @@ from typing import Any
 
 import pytest
 
-from scripts.android.java_names import java_class, stubs_folder
+from scripts.android.java_names import OPTIONAL, arity, java_class, stubs_folder
 
-__all__ = ["Handle", "JavaException", "NotJava", "install", "java"]
+__all__ = ["Handle", "JavaException", "NotJava", "install", "java", "played"]
 
 OURS = {"org.kivy.android.PythonActivity": "android.app.Activity"}
 """Classes of python-for-android's own, and what of Android's they are."""
@@ -130,6 +130,12 @@ def java(name: str, **given: Any) -> Any:
     return _Checked(name, given)
 
 
+def played(name: str, by: Any) -> Any:
+    """An object of a class whose methods are those of a test's own object."""
+    methods = {one: getattr(by, one) for one in vars(type(by)) if not one.startswith("_")}
+    return java(name, **methods)
+
+
 def _signature(text: str) -> int:
     whole = re.fullmatch(rf"\(((?:{TYPE.pattern})*)\)(?:V|{TYPE.pattern})", text)
     if not whole:
@@ -165,14 +171,12 @@ class PythonJavaClass:
 
 
 def _abstract(name: str) -> Iterator[tuple[str, int]]:
-    from scripts.android.java_names import OPTIONAL
-
     stub = java_class(name, stubs_folder())
     if stub is None:
         raise NotJava(f"Java has no class {name}.")
     for node in stub.body:
         if isinstance(node, ast.FunctionDef) and node.name not in OPTIONAL:
-            yield node.name, len(node.args.posonlyargs) - 1
+            yield node.name, arity(node)
 
 
 def install(monkeypatch: pytest.MonkeyPatch, *classes: Any) -> None:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import sys
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -29,6 +28,7 @@ from app.inputs.voice.interfaces.speech_recognizer import (
     VoiceTrouble,
 )
 from app.inputs.voice.recognition.phrases import PHRASES
+from tests.app.device.java import Handle, install, java, played
 
 ENGLISH = Grammar(PHRASES["en"])
 
@@ -92,42 +92,48 @@ class Phone:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.t, self.posted, self.allowed, self.there = 50.0, [], True, True
         self.service, self.voices, self.asked, self.told = Service(), [], [], []
+        self.intents: list[Intent] = []
         monkeypatch.setattr(speech, "_asked", set())
-        activity = SimpleNamespace(
+        activity = java(
+            "android.app.Activity",
             checkSelfPermission=lambda _: 0 if self.allowed else -1,
             requestPermissions=lambda names, _: self.asked.extend(names),
         )
         extras = ("LANGUAGE_MODEL", "LANGUAGE", "PREFER_OFFLINE", "PARTIAL_RESULTS", "MAX_RESULTS")
-        names = {f"EXTRA_{name}": name for name in extras}
-        self.classes: dict[str, Any] = {
-            "org.kivy.android.PythonActivity": SimpleNamespace(mActivity=activity),
-            "android.os.Looper": SimpleNamespace(getMainLooper=lambda: None),
-            "android.os.Handler": lambda _: SimpleNamespace(
-                postDelayed=lambda runnable, after: self.posted.append((after, runnable))
-            ),
-            "android.speech.SpeechRecognizer": SimpleNamespace(
-                isRecognitionAvailable=lambda _: self.there, createSpeechRecognizer=lambda _: self.service
-            ),
-            "android.speech.RecognizerIntent": SimpleNamespace(
-                ACTION_RECOGNIZE_SPEECH="recognise", LANGUAGE_MODEL_FREE_FORM="free", **names
-            ),
-            "android.content.Intent": Intent,
-            "android.speech.tts.TextToSpeech": self._voice,
-            "java.util.Locale": SimpleNamespace(forLanguageTag=lambda tag: tag),
-            "java.lang.String": str,
-        }
-        jnius = ModuleType("jnius")
-        jnius.__dict__.update(
-            autoclass=self.classes.__getitem__,
-            cast=lambda _, value: value,
-            PythonJavaClass=object,
-            java_method=lambda _: lambda function: function,
+        recogniser = "android.speech.SpeechRecognizer"
+        handler = java(
+            "android.os.Handler",
+            postDelayed=lambda runnable, after: bool(self.posted.append((after, runnable))),
         )
-        monkeypatch.setitem(sys.modules, "jnius", jnius)
+        install(
+            monkeypatch,
+            java("org.kivy.android.PythonActivity", mActivity=activity),
+            java("android.os.Looper", getMainLooper=None),
+            java("android.os.Handler", new=lambda _: handler),
+            java(
+                recogniser,
+                isRecognitionAvailable=lambda _: self.there,
+                createSpeechRecognizer=lambda _: played(recogniser, self.service),
+            ),
+            java(
+                "android.speech.RecognizerIntent",
+                ACTION_RECOGNIZE_SPEECH="recognise",
+                LANGUAGE_MODEL_FREE_FORM="free",
+                **{f"EXTRA_{name}": name for name in extras},
+            ),
+            java("android.content.Intent", new=self._intent),
+            java("android.speech.tts.TextToSpeech", new=self._voice),
+            java("java.util.Locale", forLanguageTag=Handle),
+            java("java.lang.String", new=Handle),
+        )
 
-    def _voice(self, *given: Any) -> Voice:
+    def _intent(self, action: str) -> Any:
+        self.intents.append(Intent(action))
+        return played("android.content.Intent", self.intents[-1])
+
+    def _voice(self, *given: Any) -> Any:
         self.voices.append(Voice(*given))
-        return self.voices[-1]
+        return played("android.speech.tts.TextToSpeech", self.voices[-1])
 
     def run(self) -> None:
         while self.posted:
@@ -159,7 +165,7 @@ def phone(monkeypatch: pytest.MonkeyPatch) -> Phone:
 
 def test_it_asks_for_offline_recognition_with_partial_results_and_many_guesses(phone: Phone) -> None:
     phone.listening()
-    (intent,) = phone.service.intents
+    (intent,) = phone.intents
     assert intent.extras == {
         "LANGUAGE_MODEL": "free",
         "LANGUAGE": "en-US",
@@ -290,7 +296,7 @@ def test_an_error_that_does_not_mend_is_said_at_once(phone: Phone, number: int, 
 
 def test_another_language_is_asked_for_and_its_words_count(phone: Phone) -> None:
     phone.listening(Grammar(PHRASES["de"], "de"))
-    assert phone.service.intents[0].extras["LANGUAGE"] == "de-DE"
+    assert phone.intents[0].extras["LANGUAGE"] == "de-DE"
     phone.says("nach Hause")
     assert phone.results()[0].command == "go_home"
 
