@@ -21,10 +21,12 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, TypeVar
 
 import psutil
+
+from bench.support.watching import Watching, in_ui
 
 T = TypeVar("T")
 
@@ -73,30 +75,14 @@ def reply(value: object) -> None:
     print(json.dumps(value), flush=True)
 
 
-def in_ui(work: Callable[[], T]) -> T:
-    """Call `work` in the UI thread and wait for what it gives."""
-    from kivy.clock import Clock
-
-    done, result = threading.Event(), []
-
-    def call(_: float) -> None:
-        result.append(work())
-        done.set()
-
-    Clock.schedule_once(call, 0)
-    if not done.wait(20):
-        raise TimeoutError("The UI thread does not answer.")
-    return result[0]
-
-
-class Script:
+class Script(Watching):
     """The commands to the app; each method's result is its answer."""
 
     def __init__(self, app: Any) -> None:
-        self.app, self._frames = app, count_frames()
+        super().__init__()
+        self.app = app
         self.commands: list[tuple[float, ...]] = []
         self.touched = (0.0, 0.0)
-        self.pictures: list[tuple[float, float]] = []
         self._grip: Any = None
 
     def connect(self, url: str) -> dict[str, Any]:
@@ -306,54 +292,9 @@ class Script:
         from bridge.msgs.nav_msgs import Odometry
 
         link = self.app.session.link
-        client, network = link._client, link._network  # noqa: SLF001 - no screen listens to so much
+        client, network = link._client, link._network
         network.call(lambda: client.subscribe(topic, Odometry, lambda *_: None))
         return {}
-
-    def watch(self, seconds: float) -> dict[str, Any]:
-        """Look on for a while: the main thread's share of a core, memory, frames and pictures."""
-        self.pictures.clear()
-        before, began = in_ui(self._spent), time.monotonic()
-        time.sleep(seconds)
-        after, lasted = in_ui(self._spent), time.monotonic() - began
-        return {
-            "main": (after["main"] - before["main"]) / lasted,
-            "process": (after["process"] - before["process"]) / lasted,
-            "frames": (after["frames"] - before["frames"]) / lasted,
-            "rss": psutil.Process().memory_info().rss,
-            "pictures": list(self.pictures),
-        }
-
-    def overdraw(self) -> dict[str, float]:
-        """How often each pixel of the glass is shaded for one frame."""
-        return {"times": in_ui(_overdraw)}
-
-    def _spent(self) -> dict[str, float]:
-        return {"main": time.thread_time(), "process": time.process_time(), "frames": next(self._frames)}
-
-
-def _overdraw() -> float:
-    from kivy.core.window import Window
-
-    from bench.support.overdraw import Overdraw
-
-    return sum(Overdraw(Window).frame().values()) / (Window.width * Window.height)
-
-
-def count_frames() -> Iterator[int]:
-    """How many frames were drawn since the first was asked for; Kivy itself counts those that are left out as well."""
-    from kivy.core.window import Window
-
-    kind, drawn = type(Window), [0]
-    draw = kind.on_draw
-
-    def on_draw(window: Any) -> None:
-        drawn[0] += 1
-        draw(window)
-
-    kind.on_draw = on_draw
-    while True:
-        yield drawn[0]
 
 
 def obey(script: Script, stop: Callable[[], None]) -> None:

@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+import psutil
+
 from bench.support.child import Child, child
 from bench.support.station import serving
 
@@ -31,6 +33,11 @@ class Pair:
         self.started = started
         """`first_frame` [s] and `rss` [byte] of the app."""
         self._app = app
+
+    @property
+    def process(self) -> psutil.Process:
+        """The app's."""
+        return psutil.Process(self._app.process.pid)
 
     def ask(self, do: str, **fields: object) -> dict[str, Any]:
         """Have the app do something; RuntimeError when it could not."""
