@@ -174,12 +174,13 @@ class PilothouseApp(Showing, App):
         self.opened.begin()
         self.robot_list.trust.begin(self._pair)
         if self._url:
+            self.returning.forget()
             self.open(self._url)
         elif screen := self.returning.begin():
             self.pages.screen = screen
         elif self._first_screen in LONE:
             self._show_anywhere(self._first_screen)
-        if self._tours and self.session is None:
+        if self._tours and not self._url and self.session is None:
             self.begin_tour_if_new()
 
     def on_stop(self) -> None:
@@ -213,9 +214,10 @@ class PilothouseApp(Showing, App):
         self.visit.suspend()
         self.records.stop()
         robot = (
-            self.session if self.simulating.current is None else None
-        )  # one of this device ends with the app
-        self.returning.put_away(robot.link.url if robot is not None else "", self.pages.screen)
+            None if self.simulating.current else self.session
+        )  # a simulator of this device ends with the app
+        watched = robot is not None and not robot.authority.wanted
+        self.returning.put_away(robot.link.url if robot else "", self.pages.screen, watch=watched)
         self.collector.pause()
         return True
 

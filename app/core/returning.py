@@ -28,8 +28,8 @@ class Host(Protocol):
 
     settings: Settings
 
-    def open(self, url: str) -> None:
-        """Connect to a robot."""
+    def open(self, url: str, *, watch: bool = ...) -> None:
+        """Connect to a robot, only to `watch` it or to take control when that is free."""
 
     def say(self, text: str, level: str) -> None:
         """Show one sentence, wherever the operator looks."""
@@ -47,12 +47,12 @@ class Returning:
         self._untold = False
         """This process began where one before it was ended, and nobody was told."""
 
-    def put_away(self, url: str, screen: str) -> None:
+    def put_away(self, url: str, screen: str, *, watch: bool) -> None:
         """The glass is taken away from a robot's screen; what is kept is on the disk when this returns, or shortly after.
 
-        `url` is the robot's address, empty where there is none to go back to.
+        `url` is the robot's address, empty where there is none to go back to; `watch` says that control was not wanted of it.
         """
-        place = {"url": url, "screen": screen, "at": self._clock()} if url else None
+        place = {"url": url, "screen": screen, "watch": watch, "at": self._clock()} if url else None
         self._app.settings.set(KEY, place)
         self._app.settings.flush(WRITTEN_WITHIN)
 
@@ -78,7 +78,7 @@ class Returning:
         if not isinstance(screen, str) or screen not in self._screens:
             return ""
         self._untold = True
-        self._app.open(url)
+        self._app.open(url, watch=kept.get("watch") is True)
         return screen
 
     def tell(self) -> None:

@@ -35,8 +35,6 @@ OURS = {
 }
 """Packages of python-for-android's own, and where their sources are in its tree; SDL's come with SDL, which is not there."""
 OF_SDL = frozenset({"org.libsdl.app.SDLActivity"})
-INHERITED = frozenset({"mActivity"})
-"""What PythonActivity has and its stubs would say."""
 
 
 class Use(NamedTuple):
@@ -231,7 +229,7 @@ def _counts(stub: ast.ClassDef | None, name: str, count: int) -> set[int]:
     return {count} | {arity(one) for one in kinds} | ({-1} if name in OPTIONAL else set())
 
 
-OPTIONAL = frozenset({"onSegmentResults", "onEndOfSegmentedSession", "onLanguageDetection", "onError2"})
+OPTIONAL = frozenset({"onSegmentResults", "onEndOfSegmentedSession", "onLanguageDetection"})
 """Methods that an interface got later, with a body of its own; older phones do not have them."""
 
 

@@ -166,6 +166,38 @@ def test_ended_while_away_it_begins_where_it_was_with_the_half_made_mission(
         assert not any(twist != Twist() for twist in robot.twists())
 
 
+@pytest.mark.parametrize("watched", [False, True])
+def test_who_only_watched_goes_back_to_watch(
+    stage: Stage, robot: FakeRobot, sdl, tmp_path: Path, watched: bool
+):
+    with running(stage, tmp_path) as glass:
+        glass.app.open(robot.url, watch=watched)
+        glass.until(lambda: glass.app.shell is not None, "no screens")
+        sdl(glass.app, AWAY, GONE)
+        at_death = (tmp_path / "settings.json").read_bytes()
+    (tmp_path / "settings.json").write_bytes(at_death)
+    with running(stage, tmp_path) as glass:
+        assert glass.app.session.authority.wanted is not watched
+
+
+def test_a_robot_that_is_named_at_the_start_is_the_one_that_is_opened(
+    died: Path, stage: Stage, robot: FakeRobot
+):
+    settings = json.loads((died / "settings.json").read_text())
+    assert settings["put_away"]["url"] == robot.url
+    from app.application import PilothouseApp
+
+    app = PilothouseApp("ws://127.0.0.1:9", settings_dir=died, discover=False, tour=True)
+    app.root = app.build()
+    app.on_start()
+    try:
+        assert app.session.link.url == "ws://127.0.0.1:9"
+        assert app.settings.get("put_away") is None
+        assert app._tour is None, "nobody asked to be shown round"
+    finally:
+        app.on_stop()
+
+
 def test_it_goes_back_once(died: Path, stage: Stage, robot: FakeRobot):
     with running(stage, died) as glass:
         glass.until(lambda: glass.app.shell is not None, "no screens")
