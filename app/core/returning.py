@@ -19,7 +19,7 @@ MAX_URL = 300
 WRITTEN_WITHIN = 0.3
 """The system lets an app that goes to the background do this much [s]; after it the process may be frozen or ended."""
 ENDED = mark(
-    "The system ended the app while it was away. This is where you were; nothing drives until you push the stick."
+    "The system ended the app while it was away. This is where you were; the app drives nothing until you push the stick."
 )
 
 
