@@ -35,6 +35,8 @@ HOST = "10.0.2.2"
 PORT = 9190
 PATIENCE = 90.0
 """A first start unpacks the app [s]."""
+SERVES = 60.0
+"""From its start until the robot side takes connections [s]."""
 ANSWERS = 5.0
 """From a tap on STOP to the robot's word [s], on an emulator that draws by its processor."""
 
@@ -166,7 +168,7 @@ def passes(
     phone.install(package)
     yield f"installed: {package.name}"
     with served(port) as server, RemoteRobot(f"ws://127.0.0.1:{port}") as robot:
-        robot.wait(patience)
+        robot.wait(SERVES)
         watcher, before = _Watcher(robot), _connections(server, port)
         phone.turn(0)
         phone.open(f"pilothouse://{host}:{port}?n=Patrol")
