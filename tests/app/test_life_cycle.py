@@ -68,6 +68,30 @@ def test_the_robot_is_told_to_rest_before_the_link_is_closed(
     driving.until(lambda: not driving.app.session.connected, "still connected")
 
 
+def test_every_control_has_let_go_before_anything_else_is_done(
+    driving: Glass, robot: FakeRobot, sdl, monkeypatch
+):
+    push(driving, robot)
+    app, stick, held = driving.app, driving.app.screens["drive"].stick, {}
+    for owner, step in (
+        (app.methods, "pause"),
+        (app.corner, "leave"),
+        (app.visit, "suspend"),
+        (app.records, "stop"),
+        (app.returning, "put_away"),
+        (app.collector, "pause"),
+    ):
+
+        def noting(*given, do=getattr(owner, step), of=(type(owner).__name__, step), **named):
+            held.setdefault(of, stick.twist)
+            return do(*given, **named)
+
+        monkeypatch.setattr(owner, step, noting)
+    sdl(app, AWAY)
+    assert len(held) == 6, held
+    assert {step: twist for step, twist in held.items() if twist != Twist()} == {}
+
+
 def test_back_on_the_glass_it_connects_again_and_a_finger_from_before_drives_nothing(
     driving: Glass, robot: FakeRobot, sdl
 ):
