@@ -73,20 +73,22 @@ def test_every_control_has_let_go_before_anything_else_is_done(
 ):
     push(driving, robot)
     app, stick, held = driving.app, driving.app.screens["drive"].stick, {}
-    for owner, step in (
-        (app.methods, "pause"),
-        (app.corner, "leave"),
-        (app.visit, "suspend"),
-        (app.records, "stop"),
-        (app.returning, "put_away"),
-        (app.collector, "pause"),
-    ):
 
-        def noting(*given, do=getattr(owner, step), of=(type(owner).__name__, step), **named):
-            held.setdefault(of, stick.twist)
+    def noting(owner, step):
+        do = getattr(owner, step)
+
+        def note(*given, **named):
+            held.setdefault(f"{type(owner).__name__}.{step}", stick.twist)
             return do(*given, **named)
 
-        monkeypatch.setattr(owner, step, noting)
+        monkeypatch.setattr(owner, step, note)
+
+    noting(app.methods, "pause")
+    noting(app.corner, "leave")
+    noting(app.visit, "suspend")
+    noting(app.records, "stop")
+    noting(app.returning, "put_away")
+    noting(app.collector, "pause")
     sdl(app, AWAY)
     assert len(held) == 6, held
     assert {step: twist for step, twist in held.items() if twist != Twist()} == {}
